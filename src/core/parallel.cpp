@@ -1,0 +1,25 @@
+#include "core/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+
+namespace skylapse {
+
+int available_cores() { return tbb::info::default_concurrency(); }
+
+void parallel_for_ranges(size_t count, size_t grain,
+                         const std::function<void(size_t, size_t)>& body) {
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain > 0 ? grain : 1),
+                    [&](const auto& range) { body(range.begin(), range.end()); });
+}
+
+ThreadLimit::ThreadLimit(int threads) {
+  if (threads > 0)
+    control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism, threads);
+}
+
+ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+
+}  // namespace skylapse

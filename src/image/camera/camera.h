@@ -1,0 +1,66 @@
+#pragma once
+// Cameras: which direction each pixel looks along, and back.
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "core/frames.h"
+#include "core/quantity.h"
+
+namespace skylapse::image {
+
+enum class Projection {
+  perspective,
+  fisheye_equidistant,
+  fisheye_equisolid,
+  fisheye_stereographic,
+  lat_long,
+  cube,
+};
+
+/// Order of faces is +X -X +Y -Y +Z -Z, oriented as OpenGL cube maps (OpenEXR ENVMAP_CUBE).
+enum class CubeLayout {
+  horizontal_strip,  // 6n x n
+  vertical_strip,    // n x 6n, as OpenEXR stores a cube
+  cross,             // 4n x 3n: +Y above, -X +Z +X -Z in the middle row, -Y below; rest blank
+};
+
+/// A camera and its image size. Lat-long and cube images use the OpenEXR axes
+/// X = west, Y = up, Z = north, turned about the vertical by the camera's heading.
+struct Camera {
+  Projection projection = Projection::perspective;
+  int width = 0;
+  int height = 0;
+  /// Perspective: full horizontal angle, (0, 180) deg. Fisheye: full angle across the image
+  /// circle, whose diameter is the shorter side; up to 360 deg (stereographic below 360).
+  Angle field_of_view = 90 * deg;
+  CubeLayout cube_layout = CubeLayout::vertical_strip;
+  /// Columns: the camera's right, up and forward axes in east-north-up. Lat-long and cube:
+  /// up is the zenith and forward the heading of the image centre.
+  glm::dmat3 camera_to_enu{1.0};
+};
+
+/// Camera orientation looking at `azimuth` and `elevation`, rolled clockwise by `roll` as seen
+/// from behind. At elevation +-90 deg the image's upper edge is the limit of that azimuth:
+/// looking straight up with azimuth 0 (north), the upper edge points south.
+glm::dmat3 look_at(Angle azimuth, Angle elevation, Angle roll);
+
+struct PixelPosition {
+  double x = 0;  // in pixels from the left edge; the centre of column i is i + 0.5
+  double y = 0;  // in pixels from the top edge
+};
+
+/// Direction seen at a position of the image; nothing outside a fisheye circle or on the blank
+/// parts of a cross.
+std::optional<Direction<Enu>> direction_at(const Camera& camera, PixelPosition position);
+
+/// Where a direction falls; nothing if the camera does not see it.
+std::optional<PixelPosition> position_of(const Camera& camera, const Direction<Enu>& direction);
+
+/// Solid angle of the pixel in column x and row y (0 outside the picture), to 1e-6 relative
+/// wherever the projection is smooth over the pixel.
+SolidAngle pixel_solid_angle(const Camera& camera, int x, int y);
+
+/// Share of a pixel above the horizon: clamp(elevation / side + 1/2), side = sqrt(solid angle).
+double horizon_coverage(Angle elevation, SolidAngle pixel);
+
+}  // namespace skylapse::image
