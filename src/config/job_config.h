@@ -1,0 +1,157 @@
+#pragma once
+// A job as the user wrote it, checked value by value. What needs the sun (anchored times) is
+// resolved later by plan/, with the spans kept here.
+#include <chrono>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "astro/ephemeris/ephemeris.h"
+#include "astro/events.h"
+#include "astro/sky_state.h"
+#include "core/result.h"
+#include "image/camera/camera.h"
+
+namespace skylapse::config {
+
+struct Site {
+  std::string name;  // letters, digits, "-", "_", "." when used in a path; default "site1"...
+  astro::GeodeticPosition position;
+  std::optional<Spanned<std::string>> zone;  // this site's own zone; else the job's
+  SourceSpan span;
+};
+
+/// "2026-06-21 sunrise - 45 min", "04:30", "2026-06-21T04:30+02:00", "solar_noon".
+struct TimeExpression {
+  std::optional<std::chrono::year_month_day> date;         // else the day being expanded
+  std::optional<std::chrono::microseconds> clock;          // since local midnight (24:00 allowed)
+  std::optional<std::chrono::seconds> utc_offset;          // written with the time, wins over zones
+  bool leap_second = false;                                // the clock read 23:59:60
+  std::optional<astro::EventKind> anchor;                  // exactly one of clock and anchor
+  Duration offset{};                                       // added last
+  SourceSpan span;
+};
+
+struct DateRange {
+  std::chrono::year_month_day first, last;  // inclusive
+  int step_days = 1;
+  SourceSpan span;
+};
+
+struct FixedStep { Duration step; };
+struct FrameCount { long count = 0; };           // evenly from `from` to `to`, both included
+struct ElevationStep { Angle step; };            // each crossing of a multiple of `step`
+struct ExplicitTimes { std::vector<TimeExpression> times; };
+using Sampling = std::variant<FixedStep, FrameCount, ElevationStep, ExplicitTimes>;
+
+struct TimePlan {
+  std::optional<Spanned<std::string>> zone;
+  std::vector<DateRange> dates;  // empty only if every expression carries its own date
+  std::optional<TimeExpression> from, to;
+  Sampling sampling;
+  Duration dut1{};
+  SourceSpan span;
+};
+
+/// Ground reflectance: grey, or a named spectrum of data/spectral/ground_albedo.
+struct Albedo {
+  std::string name;    // "0.2", "grass"
+  double value = 0;    // grey value; for a named spectrum its mean over 400..700 nm
+  bool spectral = false;
+};
+
+/// One dimension of the job per list: the frames of all combinations are rendered.
+struct Air {
+  std::vector<Spanned<double>> turbidity{{2.5, {}}};  // 1..10, from turbidity, visibility or aerosol depth
+  std::vector<Spanned<Albedo>> ground_albedo{{{"0.2", 0.2, false}, {}}};
+  astro::RefractionConditions refraction;
+};
+
+enum class SkyModel { automatic, hosek_wilkie };
+enum class HosekWilkieFit { spectral, xyz, rgb };
+enum class SolarFlux {
+  reference,   // limb darkening as the published model: 70-85 % of the flux
+  conserving,  // divided by the disc mean of the limb darkening
+};
+
+struct Sky {
+  SkyModel model = SkyModel::automatic;
+  HosekWilkieFit fit = HosekWilkieFit::spectral;
+  SolarFlux solar_flux = SolarFlux::conserving;
+  bool sun_disc = true;
+  astro::SunAlgorithm sun_algorithm = astro::SunAlgorithm::erfa;
+};
+
+struct CameraConfig {
+  std::string name = "camera";
+  image::Camera camera;
+  bool cube_faces_apart = false;  // layout: faces, six files by the token {face}
+  SourceSpan span;
+};
+
+enum class ExposureMode { fixed, sun_curve, metered };
+struct Exposure {
+  ExposureMode mode = ExposureMode::sun_curve;
+  double ev = 15.0;              // EV at ISO 100, mode fixed
+  double compensation = 0.0;     // stops, brighter positive
+  double rate_limit = 0.5;       // metered: greatest change in stops per minute
+};
+
+struct ColorConfig {
+  std::string space = "rec709";              // scene-linear space of the pixels
+  std::optional<Spanned<std::string>> ocio;  // config file; else $OCIO, else built in
+};
+
+enum class PixelType { automatic, u8, u16, half_float, float32 };
+enum class SunPolicy { refuse, clip, scale, split };  // for half and other bounded formats
+
+struct ImageOutput {
+  Spanned<std::string> path;  // template, relative to the output folder
+  std::string format;         // "exr", "hdr", "png", "jpg", "tif", by the extension
+  PixelType pixel_type = PixelType::automatic;
+  SunPolicy sun_policy = SunPolicy::clip;
+  std::optional<std::string> display, view;  // display-referred outputs; nothing: scene-linear
+  int quality = 92;                          // jpeg
+  std::string compression = "zip";           // exr: none, zip, zips, piz, dwaa
+};
+
+struct MovieOutput {
+  Spanned<std::string> path;
+  double frames_per_second = 30;
+  std::optional<std::string> display, view;
+  int crf = 18;
+};
+
+using Output = std::variant<ImageOutput, MovieOutput>;
+
+struct JobConfig {
+  std::string file;
+  std::string title;
+  std::vector<Site> sites;
+  TimePlan time;
+  Air air;
+  Sky sky;
+  std::vector<CameraConfig> cameras;
+  Exposure exposure;
+  ColorConfig color;
+  std::vector<Output> outputs;
+  bool allow_outside_paths = false;  // outputs may leave the output folder
+};
+
+/// "key.path=value" of the command line.
+struct Override {
+  std::string key_path;
+  std::string value;
+};
+
+/// Reads and checks a file; all errors in one go, in the order of their places.
+Result<JobConfig, Diagnostics> load_job(const std::string& path,
+                                        const std::vector<Override>& overrides = {});
+/// The same for text; `name` is used in messages.
+Result<JobConfig, Diagnostics> parse_job(const std::string& text, const std::string& name,
+                                         const std::vector<Override>& overrides = {});
+/// JSON Schema (draft 2020-12) of the config, made from the same table that the reader uses.
+std::string job_json_schema();
+
+}  // namespace skylapse::config

@@ -1,0 +1,70 @@
+#pragma once
+// Image files and display transforms behind one interface. The libraries behind it are heavy to
+// load, so they live in a shared module that is opened at first use (open_image_io).
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/result.h"
+#include "image/frame_buffer.h"
+
+namespace skylapse::output {
+
+enum class SampleType { u8, u16, half_float, float32 };
+
+struct Attribute {
+  std::string name;
+  std::variant<int, float, double, std::string, std::vector<float>> value;
+};
+
+/// An image ready to be encoded, interleaved RGB, row 0 at the top.
+struct EncodeRequest {
+  std::string format;  // "exr", "hdr", "png", "jpg", "tif"
+  int width = 0, height = 0;
+  SampleType type = SampleType::float32;  // of both `pixels` and the file
+  const void* pixels = nullptr;           // half_float: pass float32 pixels, converted inside
+  std::string compression = "zip";        // exr, tif
+  int quality = 92;                       // jpg
+  std::vector<Attribute> attributes;      // names as OpenEXR spells them
+};
+
+struct DecodedImage {
+  image::FrameBuffer pixels;  // as stored, integers scaled to 0..1
+  std::vector<Attribute> attributes;
+  int stored_bits = 0;
+};
+
+/// Scene-linear to display, through an OpenColorIO display and view. Safe for use by many threads.
+class DisplayTransform {
+ public:
+  virtual ~DisplayTransform() = default;
+  /// In place, interleaved RGB, `pixels` of them.
+  virtual void apply(float* rgb, size_t pixels) const = 0;
+};
+
+struct DisplayRequest {
+  std::string config_file;   // empty: $OCIO, else the built-in ACES config
+  std::string scene_space;   // "rec709", "rec2020", "acescg", "aces2065-1" (linear)
+  std::string display;       // empty: the config's default
+  std::string view;          // empty: the default view of that display
+};
+
+class ImageIo {
+ public:
+  virtual ~ImageIo() = default;
+  /// The whole file in memory. Same request, same bytes.
+  virtual Result<std::vector<std::byte>> encode(const EncodeRequest& request) const = 0;
+  virtual Result<DecodedImage> decode(const std::string& path) const = 0;
+  virtual Result<std::unique_ptr<DisplayTransform>> display(const DisplayRequest& request) const = 0;
+  /// Displays and their views of a config, "display/view" each, default first.
+  virtual Result<std::vector<std::string>> views(const std::string& config_file) const = 0;
+  virtual std::string versions() const = 0;  // "OpenImageIO 2.4.7, OpenColorIO 2.1.2"
+};
+
+/// Loads the module (once per process). Missing module: ErrorCode::missing_backend.
+Result<const ImageIo*> open_image_io();
+
+}  // namespace skylapse::output
