@@ -10,8 +10,11 @@
 #include "astro/ephemeris/ephemeris.h"
 #include "astro/events.h"
 #include "astro/sky_state.h"
+#include "color/exposure.h"
 #include "core/result.h"
 #include "image/camera/camera.h"
+#include "output/image_writer.h"
+#include "sky/hosek_wilkie/options.h"
 
 namespace skylapse::config {
 
@@ -69,16 +72,11 @@ struct Air {
 };
 
 enum class SkyModel { automatic, hosek_wilkie };
-enum class HosekWilkieFit { spectral, xyz, rgb };
-enum class SolarFlux {
-  reference,   // limb darkening as the published model: 70-85 % of the flux
-  conserving,  // divided by the disc mean of the limb darkening
-};
 
 struct Sky {
   SkyModel model = SkyModel::automatic;
-  HosekWilkieFit fit = HosekWilkieFit::spectral;
-  SolarFlux solar_flux = SolarFlux::conserving;
+  sky::hosek_wilkie::Fit fit = sky::hosek_wilkie::Fit::spectral;
+  sky::hosek_wilkie::SolarFlux solar_flux = sky::hosek_wilkie::SolarFlux::reference;
   bool sun_disc = true;
   astro::SunAlgorithm sun_algorithm = astro::SunAlgorithm::erfa;
 };
@@ -90,27 +88,16 @@ struct CameraConfig {
   SourceSpan span;
 };
 
-enum class ExposureMode { fixed, sun_curve, metered };
-struct Exposure {
-  ExposureMode mode = ExposureMode::sun_curve;
-  double ev = 15.0;              // EV at ISO 100, mode fixed
-  double compensation = 0.0;     // stops, brighter positive
-  double rate_limit = 0.5;       // metered: greatest change in stops per minute
-};
-
 struct ColorConfig {
   std::string space = "rec709";              // scene-linear space of the pixels
   std::optional<Spanned<std::string>> ocio;  // config file; else $OCIO, else built in
 };
 
-enum class PixelType { automatic, u8, u16, half_float, float32 };
-enum class SunPolicy { refuse, clip, scale, split };  // for half and other bounded formats
-
 struct ImageOutput {
   Spanned<std::string> path;  // template, relative to the output folder
   std::string format;         // "exr", "hdr", "png", "jpg", "tif", by the extension
-  PixelType pixel_type = PixelType::automatic;
-  SunPolicy sun_policy = SunPolicy::clip;
+  output::SampleType sample_type = output::SampleType::float32;
+  output::SunPolicy sun_policy = output::SunPolicy::clip;  // of formats that cannot hold the disc
   std::optional<std::string> display, view;  // display-referred outputs; nothing: scene-linear
   int quality = 92;                          // jpeg
   std::string compression = "zip";           // exr: none, zip, zips, piz, dwaa
@@ -133,7 +120,7 @@ struct JobConfig {
   Air air;
   Sky sky;
   std::vector<CameraConfig> cameras;
-  Exposure exposure;
+  color::ExposureSettings exposure;
   ColorConfig color;
   std::vector<Output> outputs;
   bool allow_outside_paths = false;  // outputs may leave the output folder

@@ -15,6 +15,14 @@ namespace skylapse::output {
 
 enum class SampleType { u8, u16, half_float, float32 };
 
+/// What a half-float file does with radiance beyond 65504 (the sun's disc).
+enum class SunPolicy {
+  refuse,  // an error before anything is rendered
+  clip,    // limited to 65504; the loss of irradiance is recorded
+  scale,   // the whole image scaled by a power of two that is recorded (whiteLuminance follows)
+  split,   // the disc left out; its direction, radius and irradiance recorded
+};
+
 struct Attribute {
   std::string name;
   std::variant<int, float, double, std::string, std::vector<float>> value;
