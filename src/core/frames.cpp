@@ -10,9 +10,7 @@ Angle azimuth(const Direction<Enu>& d) {
   return (positive >= kTurn ? 0.0 : positive) * rad;  // -1e-17 + 2 pi rounds to 2 pi
 }
 
-Angle elevation(const Direction<Enu>& d) {
-  return atan2_angle(d.z(), std::hypot(d.x(), d.y()));
-}
+Angle elevation(const Direction<Enu>& d) { return atan2_angle(d.z(), std::hypot(d.x(), d.y())); }
 
 Direction<Enu> enu_direction(Angle azimuth, Angle elevation) {
   const double c = cos(elevation);
