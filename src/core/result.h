@@ -14,8 +14,8 @@ struct SourceSpan {
   std::string file;  // as the user named it; "--set air.turbidity" for an override
   int line = 0;
   int column = 0;
-  int length = 1;           // columns to underline
-  std::string source_line;  // the text of that line
+  int length = 1;             // columns to underline
+  std::string source_line{};  // the text of that line
 };
 
 /// Meaning of a failure; the command line maps each to one exit code.
