@@ -1,0 +1,114 @@
+#include "pipeline/fingerprint.h"
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "core/sha256.h"
+#include "core/version.h"
+#include "output/atomic_file.h"
+
+namespace skylapse::pipeline {
+namespace {
+
+using nlohmann::json;
+
+json site_json(const config::Site& site) {
+  return {{"lat", site.position.latitude.in(deg)},
+          {"lon", site.position.longitude.in(deg)},
+          {"height", site.position.height.in(metre)},
+          {"name", site.name}};
+}
+
+json air_json(const config::JobConfig& job, const plan::Frame& frame) {
+  const auto& refraction = job.air.refraction;
+  const auto& albedo = job.air.ground_albedo[frame.albedo].value;
+  return {{"turbidity", job.air.turbidity[frame.turbidity].value},
+          {"albedo", albedo.spectral ? json(albedo.name) : json(albedo.value)},
+          {"refraction", refraction.enabled},
+          {"pressure", refraction.pressure.in(hPa)},
+          {"temperature", refraction.temperature.in(degC)}};
+}
+
+json sky_json(const config::Sky& sky) {
+  return {{"fit", int(sky.fit)},
+          {"flux", int(sky.solar_flux)},
+          {"disc", sky.sun_disc},
+          {"sun_algorithm", name_of(sky.sun_algorithm)}};
+}
+
+json camera_json(const config::CameraConfig& config) {
+  const image::Camera& camera = config.camera;
+  json axes = json::array();
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r) axes.push_back(camera.camera_to_enu[c][r]);
+  return {{"projection", int(camera.projection)},
+          {"width", camera.width},
+          {"height", camera.height},
+          {"fov", camera.field_of_view.in(rad)},
+          {"layout", int(camera.cube_layout)},
+          {"faces_apart", config.cube_faces_apart},
+          {"axes", axes}};
+}
+
+json frame_json(const plan::Plan& plan, const plan::Frame& frame) {
+  return {{"source", kSourceHash},
+          {"site", site_json(plan.job.sites[frame.site])},
+          {"utc", format_utc(frame.instant, 6)},
+          {"utc_offset", frame.local.utc_offset.count()},
+          {"dut1", plan.job.time.dut1.in(second)},
+          {"air", air_json(plan.job, frame)},
+          {"sky", sky_json(plan.job.sky)},
+          {"camera", camera_json(plan.job.cameras[frame.camera])},
+          {"space", plan.job.color.space},
+          {"ev", frame.ev}};
+}
+
+}  // namespace
+
+std::string scene_fingerprint(const plan::Plan& plan, const plan::Frame& frame) {
+  return sha256_hex(frame_json(plan, frame).dump());
+}
+
+std::string image_fingerprint(const plan::Plan& plan, const plan::Frame& frame,
+                              const config::ImageOutput& output, const std::string& color_config) {
+  json all = frame_json(plan, frame);
+  all["index"] = frame.index;
+  all["format"] = output.format;
+  all["sample"] = int(output.sample_type);
+  all["sun_policy"] = int(output.sun_policy);
+  all["quality"] = output.quality;
+  all["compression"] = output.compression;
+  if (output.display || output.view) {
+    all["display"] = output.display.value_or("");
+    all["view"] = output.view.value_or("");
+    all["color_config"] = color_config;
+  }
+  return sha256_hex(all.dump());
+}
+
+std::string movie_fingerprint(const config::MovieOutput& output,
+                              const std::vector<std::string>& frame_fingerprints) {
+  const json all = {{"fps", output.frames_per_second},
+                    {"crf", output.crf},
+                    {"path", output.path.value},
+                    {"frames", frame_fingerprints}};
+  return sha256_hex(all.dump());
+}
+
+std::string color_config_file(const config::JobConfig& job) {
+  if (job.color.ocio) return job.color.ocio->value;
+  const char* from_environment = std::getenv("OCIO");
+  return from_environment ? from_environment : "";
+}
+
+Result<std::string> color_config_hash(const config::JobConfig& job) {
+  const std::string file = color_config_file(job);
+  if (file.empty()) return std::string("built-in");
+  auto bytes = output::read_file(file);
+  if (bytes) return sha256_hex(*bytes);
+  Error error = bytes.error();
+  if (job.color.ocio) error.span = job.color.ocio->span;
+  return error;
+}
+
+}  // namespace skylapse::pipeline

@@ -1,0 +1,47 @@
+#pragma once
+#include <array>
+#include <chrono>
+#include <string_view>
+
+namespace skylapse::pipeline {
+
+/// Where a frame's time goes.
+enum class Stage { sky, disc, display, encode, write };
+inline constexpr int kStageCount = 5;
+inline constexpr std::array<std::string_view, kStageCount> kStageNames{"sky", "disc", "display",
+                                                                       "encode", "write"};
+
+/// Milliseconds of each stage.
+struct StageTimes {
+  std::array<double, kStageCount> ms{};
+  double& operator[](Stage stage) { return ms[static_cast<int>(stage)]; }
+  double operator[](Stage stage) const { return ms[static_cast<int>(stage)]; }
+  StageTimes& operator+=(const StageTimes& other) {
+    for (int i = 0; i < kStageCount; ++i) ms[i] += other.ms[i];
+    return *this;
+  }
+  [[nodiscard]] double total() const {
+    double sum = 0;
+    for (const double t : ms) sum += t;
+    return sum;
+  }
+};
+
+/// Adds the time from construction to destruction to one stage.
+class StageTimer {
+ public:
+  StageTimer(StageTimes& times, Stage stage) : times_(times), stage_(stage) {}
+  ~StageTimer() {
+    times_[stage_] += std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  StageTimes& times_;
+  Stage stage_;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace skylapse::pipeline

@@ -1,0 +1,103 @@
+#include "plan/effect_planner.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace skylapse::plan {
+namespace {
+
+EffectDecision decide_sun_disc(const config::JobConfig& job, const Frame& frame) {
+  const Angle upper_limb = elevation(frame.sky.sun_apparent) + frame.sky.sun_radius;
+  if (!job.sky.sun_disc) return {Effect::sun_disc, false, "switched off by sky.sun_disc"};
+  if (upper_limb <= 0 * deg)
+    return {Effect::sun_disc, false,
+            fmt::format("the disc is below the horizon (upper limb at {:.2f} deg)",
+                        upper_limb.in(deg))};
+  if (!sun_disc_in_view(job.cameras[frame.camera].camera, frame.sky))
+    return {Effect::sun_disc, false, "the sun is outside the picture"};
+  return {Effect::sun_disc, true, "the sun is in the picture"};
+}
+
+EffectDecision decide_ground(const config::JobConfig& job, const Frame& frame) {
+  if (!ground_in_view(job.cameras[frame.camera].camera))
+    return {Effect::ground, false, "no pixel looks below the horizon"};
+  return {Effect::ground, true, "the picture reaches below the horizon"};
+}
+
+EffectDecision decide_refraction(const config::JobConfig& job, const Frame& frame) {
+  const Angle shift = separation(frame.sky.sun_true, frame.sky.sun_apparent);
+  if (!job.air.refraction.enabled)
+    return {Effect::refraction, false, "switched off by air.refraction"};
+  return {Effect::refraction, true,
+          fmt::format("lifts the sun by {:.2f} arcmin", shift.in(arcmin))};
+}
+
+EffectDecision decide_twilight(const Frame& frame) {
+  if (!frame.sun.extrapolated)
+    return {Effect::twilight_continuation, false, "the sun is above the horizon"};
+  return {Effect::twilight_continuation, true,
+          fmt::format("the model ends at sun elevation 0: shape held, level {:.3g}",
+                      frame.sun.twilight_level)};
+}
+
+/// Directions on the circle of radius `r` around the sun, and its centre.
+std::vector<Direction<Enu>> limb_points(const Direction<Enu>& sun, Angle r) {
+  const glm::dvec3 side = glm::normalize(
+      glm::cross(sun.vec(), std::abs(sun.z()) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+  const glm::dvec3 up = glm::cross(side, sun.vec());
+  std::vector<Direction<Enu>> points{sun};
+  for (int i = 0; i < 16; ++i) {
+    const Angle a = i * 22.5 * deg;
+    points.push_back(
+        Direction<Enu>::from_vector(sun.vec() * cos(r) + (side * cos(a) + up * sin(a)) * sin(r)));
+  }
+  return points;
+}
+
+}  // namespace
+
+std::string name_of(Effect effect) {
+  switch (effect) {
+    case Effect::sun_disc:
+      return "sun-disc";
+    case Effect::ground:
+      return "ground";
+    case Effect::refraction:
+      return "refraction";
+    case Effect::twilight_continuation:
+      return "twilight-continuation";
+  }
+  return "";
+}
+
+bool sun_disc_in_view(const image::Camera& camera, const astro::SkyState& sky) {
+  if (elevation(sky.sun_apparent) + sky.sun_radius <= 0 * deg) return false;
+  // A disc smaller than a pixel spreads over its neighbours: look one pixel further out.
+  const SolidAngle pixel = image::pixel_solid_angle(camera, camera.width / 2, camera.height / 2);
+  const Angle reach = sky.sun_radius + 1.5 * std::sqrt(pixel.in(sr)) * rad;
+  for (const auto& point : limb_points(sky.sun_apparent, reach))
+    if (image::position_of(camera, point)) return true;
+  return false;
+}
+
+bool ground_in_view(const image::Camera& camera) {
+  if (camera.projection == image::Projection::lat_long ||
+      camera.projection == image::Projection::cube)
+    return true;
+  const int columns = std::min(camera.width, 64), rows = std::min(camera.height, 64);
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i <= columns; ++i) {
+      const auto d = image::direction_at(
+          camera, {double(camera.width) * i / columns, double(camera.height) * j / rows});
+      if (d && d->z() < 0) return true;
+    }
+  return false;
+}
+
+std::vector<EffectDecision> decide_effects(const config::JobConfig& job, const Frame& frame) {
+  return {decide_sun_disc(job, frame), decide_ground(job, frame), decide_refraction(job, frame),
+          decide_twilight(frame)};
+}
+
+}  // namespace skylapse::plan

@@ -1,0 +1,54 @@
+#include "plan/exposure_plan.h"
+
+#include "color/exposure.h"
+#include "core/constants.h"
+#include "plan/sky_of_frame.h"
+#include "sky/twilight.h"
+
+namespace skylapse::plan {
+namespace {
+
+/// The meter's EV of every frame, then followed inside each sequence.
+Status plan_metered(Plan& plan) {
+  const color::ExposureSettings& settings = plan.job.exposure;
+  size_t begin = 0;
+  while (begin < plan.frames.size()) {
+    std::vector<color::MeteredFrame> meter;
+    size_t end = begin;
+    for (; end < plan.frames.size() && plan.frames[end].sequence == plan.frames[begin].sequence;
+         ++end) {
+      auto light = model_illuminance(plan.job, plan.frames[end]);
+      if (!light) return light.error();
+      const Duration since = plan.frames[end].instant - plan.frames[begin].instant;
+      meter.push_back({since, color::metered_ev(*light)});
+    }
+    const auto evs = color::follow_meter(meter, settings.rate_limit);
+    for (size_t i = begin; i < end; ++i) plan.frames[i].ev = evs[i - begin] - settings.compensation;
+    begin = end;
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<Illuminance> model_illuminance(const config::JobConfig& job, const Frame& frame) {
+  const auto sky = sky_of_frame(job, frame);
+  if (!sky) return sky.error();
+  double y = sky->diffuse_irradiance_xyz().y;
+  if (job.sky.sun_disc && !frame.sun.extrapolated) y += sky->direct_irradiance().horizontal_xyz.y;
+  return y * frame.sun.twilight_level * frame.sun.distance_factor * kLuminousEfficacy * lux;
+}
+
+Status plan_exposure(Plan& plan) {
+  const color::ExposureSettings& settings = plan.job.exposure;
+  if (settings.mode == color::ExposureMode::metered) return plan_metered(plan);
+  for (Frame& frame : plan.frames) {
+    frame.ev = settings.ev;
+    if (settings.mode == color::ExposureMode::sun_curve)
+      frame.ev = color::sun_curve_ev(sky::clear_sky_illuminance(elevation(frame.sky.sun_true)));
+    frame.ev -= settings.compensation;
+  }
+  return Done{};
+}
+
+}  // namespace skylapse::plan

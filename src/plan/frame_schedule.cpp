@@ -1,0 +1,231 @@
+#include "plan/frame_schedule.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace skylapse::plan {
+namespace {
+
+using astro::Instant;
+using std::chrono::year_month_day;
+
+std::string date_text(const year_month_day& date) {
+  return fmt::format("{:04}-{:02}-{:02}", int(date.year()), unsigned(date.month()),
+                     unsigned(date.day()));
+}
+
+Error error_at(const SourceSpan& span, std::string message, std::string hint = {}) {
+  return {ErrorCode::invalid_input, std::move(message), span, std::move(hint)};
+}
+
+/// Events of the days of one site, found once each.
+class SiteDays {
+ public:
+  SiteDays(const config::Site& site, astro::Zone zone) : site_(site), zone_(std::move(zone)) {}
+  [[nodiscard]] const astro::Zone& zone() const { return zone_; }
+  [[nodiscard]] const config::Site& site() const { return site_; }
+  [[nodiscard]] const astro::Ephemeris& ephemeris() const { return ephemeris_; }
+
+  Result<const astro::DayEvents*> events(const year_month_day& date) {
+    const auto known = days_.find(std::chrono::sys_days(date));
+    if (known != days_.end()) return &known->second;
+    auto day = zone_.civil_day(date);
+    if (!day) return day.error();
+    auto events = astro::day_events(ephemeris_, site_.position, *day);
+    return &days_.emplace(std::chrono::sys_days(date), std::move(events)).first->second;
+  }
+
+ private:
+  const config::Site& site_;
+  astro::Zone zone_;
+  astro::Ephemeris ephemeris_;
+  std::map<std::chrono::sys_days, astro::DayEvents> days_;
+};
+
+std::string why_absent(const astro::DayEvents& day, astro::EventKind kind,
+                       const std::string& site) {
+  const std::string where = fmt::format("at {} on {}", site, date_text(day.day.date));
+  switch (day.of(kind).absent) {
+    case astro::AbsentEvent::above:
+      return fmt::format("there is no {} {}: it stays above that level all day", name_of(kind),
+                         where);
+    case astro::AbsentEvent::below:
+      return fmt::format("there is no {} {}: it stays below that level all day", name_of(kind),
+                         where);
+    case astro::AbsentEvent::none:
+      break;
+  }
+  return fmt::format("there is no {} {}", name_of(kind), where);
+}
+
+Result<Instant> resolve_clock(const config::TimeExpression& time, const year_month_day& date,
+                              const astro::Zone& zone) {
+  const astro::WallTime wall{std::chrono::local_days(date).time_since_epoch() + *time.clock};
+  if (!time.utc_offset) return zone.to_instant(wall);
+  Instant instant{
+      std::chrono::sys_time<std::chrono::microseconds>(wall.time_since_epoch() - *time.utc_offset)};
+  if (time.leap_second)  // 23:59:60 is written as the last second plus one: mark it as itself
+    instant.leap_second = true;
+  return instant;
+}
+
+Result<Instant> resolve(const config::TimeExpression& time, const year_month_day& day,
+                        SiteDays& days) {
+  const year_month_day date = time.date.value_or(day);
+  Result<Instant> base = [&]() -> Result<Instant> {
+    if (time.clock) return resolve_clock(time, date, days.zone());
+    auto events = days.events(date);
+    if (!events) return events.error();
+    const auto& found = (*events)->of(*time.anchor).times;
+    if (found.empty())
+      return Error{ErrorCode::invalid_input,
+                   why_absent(**events, *time.anchor, days.site().name),
+                   {},
+                   "use a clock time such as 00:00, or another day"};
+    return found.front();
+  }();
+  if (!base) {
+    Error error = base.error();
+    error.span = time.span;
+    return error;
+  }
+  return time.offset.in(second) == 0 ? *base : *base + time.offset;
+}
+
+struct Interval {
+  Instant from, to;
+};
+
+Result<std::vector<Instant>> by_step(const Interval& span, Duration step, const SourceSpan& place) {
+  const double length = (span.to - span.from).in(second);
+  const double count = std::floor(length / step.in(second) + 1e-9) + 1;
+  if (count > double(kMaxFrames))
+    return error_at(place, fmt::format("this asks for {:.3g} frames", count),
+                    fmt::format("allowed: at most {} frames in a job", kMaxFrames));
+  std::vector<Instant> times;
+  for (long i = 0; i < long(count); ++i) times.push_back(span.from + double(i) * step);
+  return times;
+}
+
+std::vector<Instant> by_count(const Interval& span, long count) {
+  std::vector<Instant> times;
+  const Duration length = span.to - span.from;
+  for (long i = 0; i < count; ++i)
+    times.push_back(count == 1 ? span.from : span.from + length * (double(i) / double(count - 1)));
+  return times;
+}
+
+std::vector<Instant> by_elevation(const Interval& span, Angle step, const SiteDays& days) {
+  std::vector<Instant> times;
+  const int highest = int(std::floor(90.0 / step.in(deg)));
+  for (int k = -highest; k <= highest; ++k)
+    for (const auto& crossing : astro::sun_level_crossings(days.ephemeris(), days.site().position,
+                                                           span.from, span.to, double(k) * step))
+      times.push_back(crossing.instant);
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+Result<Interval> interval_of(const config::TimePlan& plan, const year_month_day& date,
+                             SiteDays& days) {
+  auto from = resolve(*plan.from, date, days);
+  if (!from) return from.error();
+  auto to = resolve(*plan.to, date, days);
+  if (!to) return to.error();
+  if (*to < *from)
+    return error_at(plan.to->span,
+                    fmt::format("the interval ends ({}) before it begins ({})", format_utc(*to),
+                                format_utc(*from)),
+                    "give `to` a date of its own if it lies on the next day");
+  return Interval{*from, *to};
+}
+
+Result<std::vector<Instant>> times_of_day(const config::TimePlan& plan, const year_month_day& date,
+                                          SiteDays& days) {
+  if (const auto* list = std::get_if<config::ExplicitTimes>(&plan.sampling)) {
+    std::vector<Instant> times;
+    for (const auto& time : list->times) {
+      auto instant = resolve(time, date, days);
+      if (!instant) return instant.error();
+      times.push_back(*instant);
+    }
+    return times;
+  }
+  auto span = interval_of(plan, date, days);
+  if (!span) return span.error();
+  if (const auto* step = std::get_if<config::FixedStep>(&plan.sampling))
+    return by_step(*span, step->step, plan.span);
+  if (const auto* count = std::get_if<config::FrameCount>(&plan.sampling))
+    return by_count(*span, count->count);
+  return by_elevation(*span, std::get<config::ElevationStep>(plan.sampling).step, days);
+}
+
+/// The days of a job; without dates of their own, expressions carry one, and any day will do.
+std::vector<std::pair<year_month_day, bool>> days_of(const config::TimePlan& plan) {
+  std::vector<std::pair<year_month_day, bool>> days;  // with "may be passed over"
+  for (const auto& range : plan.dates)
+    for (auto day = std::chrono::sys_days(range.first); day <= std::chrono::sys_days(range.last);
+         day += std::chrono::days(range.step_days))
+      days.emplace_back(day, range.first != range.last);
+  if (days.empty()) {
+    const auto* list = std::get_if<config::ExplicitTimes>(&plan.sampling);
+    const auto& first = plan.from ? *plan.from : list->times.front();
+    days.emplace_back(first.date.value_or(year_month_day{}), false);
+  }
+  return days;
+}
+
+Result<astro::Zone> zone_of(const config::JobConfig& job, const config::Site& site) {
+  const auto& name = site.zone ? site.zone : job.time.zone;
+  if (!name) return astro::Zone::find("UTC");  // config made sure that no naive time needs it
+  auto zone = astro::Zone::find(name->value);
+  if (zone) return zone;
+  Error error = zone.error();
+  error.span = name->span;
+  return error;
+}
+
+}  // namespace
+
+Result<Schedule, Diagnostics> make_schedule(const config::JobConfig& job) {
+  Schedule schedule;
+  Diagnostics errors;
+  const auto days = days_of(job.time);
+  for (size_t s = 0; s < job.sites.size() && errors.empty(); ++s) {
+    auto zone = zone_of(job, job.sites[s]);
+    if (!zone) return Diagnostics{zone.error()};
+    SiteDays site_days(job.sites[s], *zone);
+    for (const auto& [date, may_be_skipped] : days) {
+      if (may_be_skipped && !zone->civil_day(date)) {
+        schedule.notes.push_back(fmt::format("{} {}: this day does not exist in {}; passed over",
+                                             job.sites[s].name, date_text(date), zone->name()));
+        continue;
+      }
+      auto times = times_of_day(job.time, date, site_days);
+      if (!times) {
+        errors.push_back(times.error());
+        break;
+      }
+      for (const Instant& instant : *times)
+        schedule.times.push_back({int(s), date, instant, zone->to_local(instant)});
+      if (long(schedule.times.size()) > kMaxFrames)
+        return Diagnostics{error_at(job.time.span, "this job has too many frames",
+                                    fmt::format("allowed: at most {}", kMaxFrames))};
+    }
+  }
+  if (!errors.empty()) return errors;
+  std::stable_sort(schedule.times.begin(), schedule.times.end(),
+                   [](const ScheduledTime& a, const ScheduledTime& b) {
+                     return a.site != b.site ? a.site < b.site : a.instant < b.instant;
+                   });
+  if (schedule.times.empty())
+    return Diagnostics{error_at(job.time.span, "no frame falls into this time span")};
+  return schedule;
+}
+
+}  // namespace skylapse::plan

@@ -1,0 +1,33 @@
+#pragma once
+// Which moments a job renders: sites x days x times, before cameras and parameter lists multiply.
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "astro/events.h"
+#include "config/job_config.h"
+#include "core/result.h"
+
+namespace skylapse::plan {
+
+/// More frames than this in one job are refused: more than a year at one a minute.
+inline constexpr long kMaxFrames = 1'000'000;
+
+struct ScheduledTime {
+  int site = 0;  // index into JobConfig::sites
+  std::chrono::year_month_day date;
+  astro::Instant instant;
+  astro::LocalTime local;
+};
+
+struct Schedule {
+  std::vector<ScheduledTime> times;  // by site, then time
+  std::vector<std::string> notes;    // days that a zone skips, for the reader of the plan
+};
+
+/// Resolves every time expression of every site and day. Anchors use the true sun (ERFA), whatever
+/// algorithm draws it. Errors keep the span of the expression: a time that the zone skips or
+/// repeats, an event that does not happen on that day, an interval that ends before it begins.
+Result<Schedule, Diagnostics> make_schedule(const config::JobConfig& job);
+
+}  // namespace skylapse::plan

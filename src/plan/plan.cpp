@@ -1,0 +1,144 @@
+#include "plan/plan.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+#include "plan/exposure_plan.h"
+#include "plan/path_template.h"
+
+namespace skylapse::plan {
+namespace {
+
+std::string clock_text(const astro::LocalTime& local) {
+  const auto since_midnight =
+      std::chrono::floor<std::chrono::seconds>(local.wall.time_since_epoch()) %
+      std::chrono::days(1);
+  const auto s = (since_midnight + std::chrono::days(1)) % std::chrono::days(1);
+  return fmt::format("{:02}{:02}{:02}", s / std::chrono::hours(1),
+                     s % std::chrono::hours(1) / std::chrono::minutes(1),
+                     s % std::chrono::minutes(1) / std::chrono::seconds(1));
+}
+
+PathValues path_values(const config::JobConfig& job, const Frame& frame) {
+  PathValues values;
+  values.site = job.sites[frame.site].name;
+  values.date = fmt::format("{:04}-{:02}-{:02}", int(frame.date.year()),
+                            unsigned(frame.date.month()), unsigned(frame.date.day()));
+  values.time = clock_text(frame.local);
+  values.camera = job.cameras[frame.camera].name;
+  values.turbidity = fmt::format("{:.3g}", job.air.turbidity[frame.turbidity].value);
+  values.albedo = job.air.ground_albedo[frame.albedo].value.name;
+  values.sun_elevation = fmt::format("{:+06.2f}", elevation(frame.sky.sun_apparent).in(deg));
+  return values;
+}
+
+const Spanned<std::string>& template_of(const config::Output& output) {
+  return std::visit([](const auto& o) -> const Spanned<std::string>& { return o.path; }, output);
+}
+
+/// Fills in the paths of one output; '#' counts from 1 among the frames whose names differ in
+/// nothing else.
+void number_paths(Plan& plan, size_t output) {
+  const std::string& pattern = template_of(plan.job.outputs[output]).value;
+  std::unordered_map<std::string, long> counters;
+  for (Frame& frame : plan.frames) {
+    const std::string path = expand_tokens(pattern, path_values(plan.job, frame));
+    frame.paths[output] = expand_number(path, ++counters[path]);
+  }
+}
+
+/// Two frames must not write one file; a movie is one file for many frames by intent.
+std::optional<Error> find_collision(const Plan& plan) {
+  std::unordered_map<std::string, std::pair<long, size_t>> writers;
+  for (const Frame& frame : plan.frames)
+    for (size_t o = 0; o < plan.job.outputs.size(); ++o) {
+      const bool movie = std::holds_alternative<config::MovieOutput>(plan.job.outputs[o]);
+      const auto [known, fresh] = writers.try_emplace(frame.paths[o], frame.index, o);
+      if (fresh || (movie && known->second.second == o)) continue;
+      return Error{
+          ErrorCode::invalid_input,
+          fmt::format("frames {} and {} would both write '{}'", known->second.first, frame.index,
+                      frame.paths[o]),
+          template_of(plan.job.outputs[o]).span,
+          "add ####, {site}, {date}, {time}, {camera}, {turbidity} or {albedo} to the name"};
+    }
+  return {};
+}
+
+void add_frames(Plan& plan, const Schedule& schedule) {
+  const config::JobConfig& job = plan.job;
+  const astro::Ephemeris ephemeris({.algorithm = job.sky.sun_algorithm, .dut1 = job.time.dut1});
+  std::vector<astro::SkyState> skies;
+  skies.reserve(schedule.times.size());
+  for (const ScheduledTime& time : schedule.times)
+    skies.push_back(
+        ephemeris.sky_state(time.instant, job.sites[time.site].position, job.air.refraction));
+  int sequence = 0;
+  size_t begin = 0;
+  while (begin < schedule.times.size()) {
+    size_t end = begin;
+    while (end < schedule.times.size() && schedule.times[end].site == schedule.times[begin].site)
+      ++end;
+    for (size_t t = 0; t < job.air.turbidity.size(); ++t)
+      for (size_t a = 0; a < job.air.ground_albedo.size(); ++a)
+        for (size_t c = 0; c < job.cameras.size(); ++c, ++sequence)
+          for (size_t i = begin; i < end; ++i) {
+            Frame frame;
+            frame.index = long(plan.frames.size()) + 1;
+            frame.site = schedule.times[i].site;
+            frame.turbidity = int(t), frame.albedo = int(a), frame.camera = int(c);
+            frame.sequence = sequence;
+            frame.date = schedule.times[i].date;
+            frame.instant = schedule.times[i].instant;
+            frame.local = schedule.times[i].local;
+            frame.sky = skies[i];
+            frame.sun = sun_for_sky(skies[i], job.air.refraction);
+            frame.paths.resize(job.outputs.size());
+            plan.frames.push_back(std::move(frame));
+          }
+    begin = end;
+  }
+}
+
+}  // namespace
+
+Result<Plan, Diagnostics> make_plan(config::JobConfig job) {
+  auto schedule = make_schedule(job);
+  if (!schedule) return schedule.error();
+  const size_t combinations =
+      job.air.turbidity.size() * job.air.ground_albedo.size() * job.cameras.size();
+  if (schedule->times.size() * combinations > size_t(kMaxFrames))
+    return Diagnostics{
+        {ErrorCode::invalid_input,
+         fmt::format("this job has {} frames", schedule->times.size() * combinations),
+         job.time.span, fmt::format("allowed: at most {}", kMaxFrames)}};
+  Plan plan{std::move(job), {}, std::move(schedule->notes), {}};
+  plan.model_reason = plan.job.sky.model == config::SkyModel::automatic
+                          ? "hosek-wilkie: the sky model for an observer on the ground"
+                          : "hosek-wilkie: asked for by sky.model";
+  add_frames(plan, *schedule);
+  for (size_t o = 0; o < plan.job.outputs.size(); ++o) number_paths(plan, o);
+  if (auto collision = find_collision(plan)) return Diagnostics{*collision};
+  const Status exposed = plan_exposure(plan);
+  if (!exposed) return Diagnostics{exposed.error()};
+  return plan;
+}
+
+std::vector<std::string> files_of(const Plan& plan, const Frame& frame, size_t output) {
+  const std::string& path = frame.paths[output];
+  if (!plan.job.cameras[frame.camera].cube_faces_apart ||
+      std::holds_alternative<config::MovieOutput>(plan.job.outputs[output]))
+    return {path};
+  std::vector<std::string> files;
+  for (const std::string& face : face_names()) {
+    PathValues values;
+    values.face = face;
+    files.push_back(expand_tokens(path, values));
+  }
+  return files;
+}
+
+}  // namespace skylapse::plan

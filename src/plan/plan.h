@@ -1,0 +1,40 @@
+#pragma once
+// The whole job before anything is rendered: frames, sun, exposure, paths. Pure: the same config
+// gives the same plan, whoever makes it.
+#include <string>
+#include <vector>
+
+#include "astro/sky_state.h"
+#include "config/job_config.h"
+#include "plan/frame_schedule.h"
+#include "plan/sun_for_sky.h"
+
+namespace skylapse::plan {
+
+struct Frame {
+  long index = 0;                                       // 1, 2, ... over the whole job
+  int site = 0, turbidity = 0, albedo = 0, camera = 0;  // which of the job's lists
+  int sequence = 0;  // frames of one site, air and camera share it
+  std::chrono::year_month_day date;
+  astro::Instant instant;
+  astro::LocalTime local;
+  astro::SkyState sky;
+  SunForSky sun;                   // what the sky model is asked for
+  double ev = 0;                   // EV100
+  std::vector<std::string> paths;  // one for each output of the job; {face} still to be filled
+};
+
+struct Plan {
+  config::JobConfig job;
+  std::vector<Frame> frames;
+  std::vector<std::string> notes;
+  std::string model_reason;  // why the model was chosen, for the whole job
+};
+
+/// Errors carry the spans of the config: unresolvable times, two frames writing one file.
+Result<Plan, Diagnostics> make_plan(config::JobConfig job);
+
+/// Paths of the files that one output of a frame writes: one, or six for separate cube faces.
+std::vector<std::string> files_of(const Plan& plan, const Frame& frame, size_t output);
+
+}  // namespace skylapse::plan

@@ -1,0 +1,18 @@
+#include "plan/sky_of_frame.h"
+
+namespace skylapse::plan {
+
+sky::AlbedoSpectrum ground_of_frame(const config::JobConfig& job, const Frame& frame) {
+  const config::Albedo& albedo = job.air.ground_albedo[frame.albedo].value;
+  if (albedo.spectral)
+    if (const auto bands = sky::albedo_bands(albedo.name)) return *bands;
+  return sky::grey_bands(albedo.value);
+}
+
+Result<sky::hosek_wilkie::Sky> sky_of_frame(const config::JobConfig& job, const Frame& frame) {
+  return sky::hosek_wilkie::Sky::make(
+      job.sky.fit, job.sky.solar_flux, job.air.turbidity[frame.turbidity].value,
+      ground_of_frame(job, frame), frame.sun.elevation, frame.sky.sun_radius);
+}
+
+}  // namespace skylapse::plan
