@@ -1,0 +1,49 @@
+// The factory of the image module, and the ImageIo that hands the work to encode, decode, display.
+#include <OpenColorIO/OpenColorIO.h>
+#include <OpenImageIO/imageio.h>
+
+#include "core/parallel.h"
+#include "output/imageio/decode.h"
+#include "output/imageio/display.h"
+#include "output/imageio/encode.h"
+#include "output/imageio/module_abi.h"
+
+namespace skylapse::output {
+namespace {
+
+class ModuleImageIo final : public ImageIo {
+ public:
+  ModuleImageIo() {
+    const int threads = available_cores();
+    OIIO::attribute("threads", threads);
+    OIIO::attribute("exr_threads", threads);
+    OCIO_NAMESPACE::SetLoggingLevel(OCIO_NAMESPACE::LOGGING_LEVEL_NONE);
+  }
+  Result<std::vector<std::byte>> encode(const EncodeRequest& request) const override {
+    return imageio::encode(request);
+  }
+  Result<DecodedImage> decode(const std::string& path) const override {
+    return imageio::decode(path);
+  }
+  Result<std::unique_ptr<DisplayTransform>> display(const DisplayRequest& request) const override {
+    return imageio::make_display_transform(request);
+  }
+  Result<std::vector<std::string>> views(const std::string& config_file) const override {
+    return imageio::list_views(config_file);
+  }
+  std::string versions() const override {
+    const int v = OIIO::openimageio_version();
+    return "OpenImageIO " + std::to_string(v / 10000) + "." + std::to_string(v / 100 % 100) + "." +
+           std::to_string(v % 100) + ", OpenColorIO " + OCIO_NAMESPACE::GetVersion();
+  }
+};
+
+}  // namespace
+}  // namespace skylapse::output
+
+extern "C" __attribute__((visibility("default"))) const skylapse::output::ImageIo*
+skylapse_open_image_module(unsigned abi) {
+  if (abi != skylapse::output::kImageModuleAbi) return nullptr;
+  static const skylapse::output::ModuleImageIo image_io;
+  return &image_io;
+}
