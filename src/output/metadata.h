@@ -1,0 +1,50 @@
+#pragma once
+// What a frame's file says about itself: standard OpenEXR attributes, and ours as "skylapse:...".
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "astro/sky_state.h"
+#include "color/rgb_space.h"
+#include "core/frames.h"
+#include "core/quantity.h"
+#include "output/image_writer.h"
+#include "output/sun_policy.h"
+
+namespace skylapse::output {
+
+/// How the picture lies on the sphere, for programs that light scenes with it.
+enum class EnvironmentMap { none, lat_long, cube };
+
+/// What the pixel values mean.
+enum class PixelEncoding {
+  absolute,  // scene-linear, 1.0 is 683 cd/m^2 (683 / scale with a scaled sun)
+  exposed,   // scene-linear times the exposure
+  display,   // through an OpenColorIO display and view
+};
+
+struct FrameMetadata {
+  std::chrono::sys_time<std::chrono::microseconds> utc{};
+  std::chrono::seconds utc_offset{};  // local = utc + utc_offset (east positive)
+  std::string zone;                   // "Europe/Prague"
+  astro::GeodeticPosition position;
+  std::string site;
+  std::optional<Direction<Enu>> sun, moon;  // apparent
+  std::optional<Angle> sun_radius;
+  color::RgbSpace space = color::RgbSpace::rec709;
+  PixelEncoding encoding = PixelEncoding::absolute;
+  std::string display, view;  // with PixelEncoding::display
+  EnvironmentMap environment = EnvironmentMap::none;
+  std::optional<double> exposure_ev100;
+  std::string model;          // "hosek-wilkie"
+  bool extrapolated = false;  // outside the model's range
+  std::string fingerprint;    // of config, code and tables
+  std::optional<SunPolicyRecord> sun_policy;   // half-float files
+  std::optional<Illuminance> sun_illuminance;  // normal to the beam: what `split` leaves out
+};
+
+/// The attributes for EncodeRequest. Table with types and meanings: docs/color.md.
+std::vector<Attribute> frame_attributes(const FrameMetadata& frame);
+
+}  // namespace skylapse::output
