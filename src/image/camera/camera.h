@@ -17,11 +17,14 @@ enum class Projection {
   cube,
 };
 
-/// Order of faces is +X -X +Y -Y +Z -Z, oriented as OpenGL cube maps (OpenEXR ENVMAP_CUBE).
+/// Strips hold +X -X +Y -Y +Z -Z, each face oriented as OpenEXR's ENVMAP_CUBE: seen from inside,
+/// not mirrored. (OpenGL's own faces are mirrored in right-handed axes: docs/conventions.md.)
+/// The cross joins at its edges: left (+X), ahead (+Z), right (-X), behind (-Z) in the middle row,
+/// +Y above and -Y below ahead, both turned by half a turn against the strips; the rest is blank.
 enum class CubeLayout {
   horizontal_strip,  // 6n x n
   vertical_strip,    // n x 6n, as OpenEXR stores a cube
-  cross,             // 4n x 3n: +Y above, -X +Z +X -Z in the middle row, -Y below; rest blank
+  cross,             // 4n x 3n
 };
 
 /// A camera and its image size. Lat-long and cube images use the OpenEXR axes
@@ -34,15 +37,19 @@ struct Camera {
   /// circle, whose diameter is the shorter side; up to 360 deg (stereographic below 360).
   Angle field_of_view = 90 * deg;
   CubeLayout cube_layout = CubeLayout::vertical_strip;
-  /// Columns: the camera's right, up and forward axes in east-north-up. Lat-long and cube:
-  /// up is the zenith and forward the heading of the image centre.
-  glm::dmat3 camera_to_enu{1.0};
+  /// Columns: the camera's right, up and forward axes in east-north-up, orthonormal with
+  /// determinant -1 (right x up points backward). Lat-long and cube: up is the zenith and forward
+  /// the heading of the image centre. Default: looking north, upright.
+  glm::dmat3 camera_to_enu{1, 0, 0, 0, 0, 1, 0, 1, 0};
 };
 
 /// Camera orientation looking at `azimuth` and `elevation`, rolled clockwise by `roll` as seen
 /// from behind. At elevation +-90 deg the image's upper edge is the limit of that azimuth:
 /// looking straight up with azimuth 0 (north), the upper edge points south.
 glm::dmat3 look_at(Angle azimuth, Angle elevation, Angle roll);
+
+Direction<CameraFrame> to_camera_frame(const Camera& camera, const Direction<Enu>& direction);
+Direction<Enu> to_enu(const Camera& camera, const Direction<CameraFrame>& direction);
 
 struct PixelPosition {
   double x = 0;  // in pixels from the left edge; the centre of column i is i + 0.5
@@ -56,11 +63,13 @@ std::optional<Direction<Enu>> direction_at(const Camera& camera, PixelPosition p
 /// Where a direction falls; nothing if the camera does not see it.
 std::optional<PixelPosition> position_of(const Camera& camera, const Direction<Enu>& direction);
 
-/// Solid angle of the pixel in column x and row y (0 outside the picture), to 1e-6 relative
-/// wherever the projection is smooth over the pixel.
+/// Solid angle of the pixel in column x and row y, to 1e-6 relative wherever the projection is
+/// smooth over the pixel; 0 outside the picture. A pixel cut by a fisheye's circle belongs to the
+/// picture, as a whole, if its centre does: the pixels that direction_at lets a renderer fill.
 SolidAngle pixel_solid_angle(const Camera& camera, int x, int y);
 
-/// Share of a pixel above the horizon: clamp(elevation / side + 1/2), side = sqrt(solid angle).
+/// Share of a pixel above the horizon: clamp(elevation / side + 1/2), side = sqrt(solid angle),
+/// from the elevation of the pixel's centre. A pixel of no size is above or below.
 double horizon_coverage(Angle elevation, SolidAngle pixel);
 
 }  // namespace skylapse::image

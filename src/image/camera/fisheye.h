@@ -1,0 +1,36 @@
+#pragma once
+// Fisheye lenses. r is the distance from the image centre over the radius of the image circle,
+// theta the angle from the optical axis, theta_max = field of view / 2:
+//   equidistant    theta = r theta_max
+//   equisolid      sin(theta / 2) = r sin(theta_max / 2)     (equal area)
+//   stereographic  tan(theta / 2) = r tan(theta_max / 2)     (conformal)
+#include "image/camera/camera.h"
+
+namespace skylapse::image {
+
+/// The image circle: as wide as the image's shorter side, in the middle of the image.
+struct FisheyeCircle {
+  double centre_x_px, centre_y_px, radius_px;
+};
+FisheyeCircle fisheye_circle(const Camera& camera);
+
+/// Angle from the optical axis at r >= 0; nothing where the formula has left the sphere.
+std::optional<Angle> fisheye_theta(const Camera& camera, double r);
+/// Inverse of fisheye_theta, for theta in [0, 180] deg; infinite for stereographic at 180 deg.
+double fisheye_r(const Camera& camera, Angle theta);
+
+/// Direction of any position, outside the image circle too as far as the formula goes.
+std::optional<Direction<CameraFrame>> fisheye_ray(const Camera& camera, PixelPosition position);
+
+/// Where a direction falls, outside the image circle too. Straight behind, where a whole circle
+/// shows one direction, the point to the right is taken.
+std::optional<PixelPosition> fisheye_position(const Camera& camera,
+                                              const Direction<CameraFrame>& direction);
+
+/// Solid angle of the whole pixel square, the picture's edge left aside.
+double fisheye_solid_angle_sr(const Camera& camera, int x, int y);
+
+/// Distance of a position from the image centre, in radii of the image circle.
+double fisheye_radius_at(const Camera& camera, PixelPosition position);
+
+}  // namespace skylapse::image
