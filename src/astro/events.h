@@ -11,9 +11,18 @@
 namespace skylapse::astro {
 
 enum class EventKind {
-  solar_noon, solar_midnight, sunrise, sunset,
-  civil_dawn, civil_dusk, nautical_dawn, nautical_dusk, astro_dawn, astro_dusk,
-  moonrise, moonset,
+  solar_noon,
+  solar_midnight,
+  sunrise,
+  sunset,
+  civil_dawn,
+  civil_dusk,
+  nautical_dawn,
+  nautical_dusk,
+  astro_dawn,
+  astro_dusk,
+  moonrise,
+  moonset,
 };
 inline constexpr int kEventKindCount = 12;
 std::string name_of(EventKind kind);  // "civil_dawn"
@@ -32,7 +41,9 @@ struct DayEvents {
   std::array<EventTimes, kEventKindCount> events;
   Angle sun_elevation_max;  // true elevation, extremes of one-minute samples
   Angle sun_elevation_min;
-  [[nodiscard]] const EventTimes& of(EventKind kind) const { return events[static_cast<int>(kind)]; }
+  [[nodiscard]] const EventTimes& of(EventKind kind) const {
+    return events[static_cast<int>(kind)];
+  }
 };
 
 /// Sunrise and sunset: centre at true elevation -50 arcmin. Twilights: -6, -12, -18 deg.
@@ -40,7 +51,8 @@ struct DayEvents {
 DayEvents day_events(const Ephemeris& ephemeris, const GeodeticPosition& observer,
                      const CivilDay& day);
 
-/// First instant in (`from`, `to`) at which the sun's true centre crosses `level`, each way.
+/// Every instant in (`from`, `to`) at which the sun's true centre crosses `level`, in order; a
+/// path that only touches the level from one side does not cross it.
 struct LevelCrossing {
   Instant instant;
   bool rising = false;

@@ -28,10 +28,10 @@ struct SkyState {
   Angle sun_declination;        // geocentric apparent, true equator of date
   Direction<Enu> moon_true;     // topocentric
   Direction<Enu> moon_apparent;
-  Length moon_distance;                // topocentric
-  Angle moon_radius;                   // angular
+  Length moon_distance;  // topocentric
+  Angle moon_radius;     // angular
   double moon_illuminated_fraction = 0;
-  Angle moon_phase_angle;              // 0 = full, 180 deg = new
+  Angle moon_phase_angle;  // 0 = full, 180 deg = new
 };
 
 }  // namespace skylapse::astro

@@ -20,8 +20,8 @@ std::string name_of(SunAlgorithm algorithm);
 
 struct EphemerisOptions {
   SunAlgorithm algorithm = SunAlgorithm::erfa;
-  Duration dut1{};                          // UT1 - UTC, |dut1| <= 0.9 s
-  std::optional<Duration> tt_minus_ut1{};   // overrides leap seconds (and Delta T before 1972)
+  Duration dut1{};  // UT1 - UTC, |dut1| <= 0.9 s; before 1972 the stamp is UT1 and this is unused
+  std::optional<Duration> tt_minus_ut1{};  // overrides leap seconds (and Delta T before 1972)
 };
 
 /// Sun and moon for one observer after another. Caches the slow part (precession-nutation) per
@@ -32,6 +32,7 @@ class Ephemeris {
   ~Ephemeris();
   Ephemeris(Ephemeris&&) noexcept;
   Ephemeris& operator=(Ephemeris&&) noexcept;
+  [[nodiscard]] const EphemerisOptions& options() const;
   [[nodiscard]] SkyState sky_state(const Instant& instant, const GeodeticPosition& observer,
                                    const RefractionConditions& refraction) const;
   /// The sun's part alone (moon fields left at their defaults): what sequences and event finding

@@ -15,6 +15,7 @@ struct LocalTime {
   WallTime wall{};
   std::chrono::seconds utc_offset{};
   std::string abbreviation;
+  bool leap_second = false;  // as in Instant: `wall` then holds the second that follows
 };
 
 /// A local calendar day as the half-open interval of UTC between two local midnights.

@@ -1,0 +1,157 @@
+#include "astro/events.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "astro/event_search.h"
+
+namespace skylapse::astro {
+namespace {
+
+constexpr std::array<std::pair<EventKind, const char*>, kEventKindCount> kNames{{
+    {EventKind::solar_noon, "solar_noon"},
+    {EventKind::solar_midnight, "solar_midnight"},
+    {EventKind::sunrise, "sunrise"},
+    {EventKind::sunset, "sunset"},
+    {EventKind::civil_dawn, "civil_dawn"},
+    {EventKind::civil_dusk, "civil_dusk"},
+    {EventKind::nautical_dawn, "nautical_dawn"},
+    {EventKind::nautical_dusk, "nautical_dusk"},
+    {EventKind::astro_dawn, "astro_dawn"},
+    {EventKind::astro_dusk, "astro_dusk"},
+    {EventKind::moonrise, "moonrise"},
+    {EventKind::moonset, "moonset"},
+}};
+
+/// 34' of refraction at the horizon + 16' of solar radius (the almanacs' convention).
+constexpr Angle kSunriseLevel = -50.0 * arcmin;
+constexpr Angle kHorizonRefraction = 34.0 * arcmin;
+constexpr RefractionConditions kAirless{.enabled = false};
+
+/// The sun needs half an hour even from one grazing contact to the next extreme of its path, the
+/// moon likewise: ten minutes hold no two extremes.
+constexpr double kStepSeconds = 600;
+
+struct TwilightLevel {
+  Angle level;
+  EventKind rising, setting;
+};
+constexpr std::array<TwilightLevel, 4> kSunLevels{{
+    {kSunriseLevel, EventKind::sunrise, EventKind::sunset},
+    {-6.0 * deg, EventKind::civil_dawn, EventKind::civil_dusk},
+    {-12.0 * deg, EventKind::nautical_dawn, EventKind::nautical_dusk},
+    {-18.0 * deg, EventKind::astro_dawn, EventKind::astro_dusk},
+}};
+
+/// One observer's sky as functions of the seconds after `origin`; angles in degrees.
+class Sky {
+ public:
+  Sky(const Ephemeris& ephemeris, const GeodeticPosition& observer, const Instant& origin)
+      : ephemeris_(ephemeris), observer_(observer), origin_(origin) {}
+  [[nodiscard]] Instant at(double t) const { return origin_ + t * second; }
+  [[nodiscard]] double sun_elevation(double t) const { return elevation(sun(t)).in(deg); }
+  [[nodiscard]] double sun_east(double t) const { return sun(t).x(); }
+  /// Of the upper limb, lifted by the horizon's refraction: 0 at moonrise and moonset.
+  [[nodiscard]] double moon_limb(double t) const {
+    const SkyState state = ephemeris_.sky_state(at(t), observer_, kAirless);
+    return (elevation(state.moon_true) + kHorizonRefraction + state.moon_radius).in(deg);
+  }
+
+ private:
+  [[nodiscard]] Direction<Enu> sun(double t) const {
+    return ephemeris_.sun_state(at(t), observer_, kAirless).sun_true;
+  }
+  const Ephemeris& ephemeris_;
+  const GeodeticPosition& observer_;
+  Instant origin_;
+};
+
+/// Sorts the crossings of one level into the pair of events, with the state of an absent one.
+void set_pair(DayEvents& day, const Sky& sky, const SampledCurve& curve, double level,
+              EventKind rising, EventKind falling) {
+  EventTimes& up = day.events[static_cast<size_t>(rising)];
+  EventTimes& down = day.events[static_cast<size_t>(falling)];
+  for (const SampledCurve::Crossing& c : curve.crossings(level))
+    (c.rising ? up : down).times.push_back(sky.at(c.time_s));
+  if (up.times.empty() && down.times.empty())
+    up.absent = down.absent =
+        curve.value_at_begin() < level ? AbsentEvent::below : AbsentEvent::above;
+}
+
+/// Extreme of the samples at whole minutes after the day's start; sign +1: the largest.
+Angle minute_extreme(const Sky& sky, const SampledCurve& elevation_curve, double length_s,
+                     double sign) {
+  const auto& samples = elevation_curve.samples();
+  const auto inside = [&](const TimeSample& s) { return s.time_s >= 0 && s.time_s < length_s; };
+  double near_s = 0;
+  double best = -std::numeric_limits<double>::infinity();
+  for (const TimeSample& s : samples)
+    if (inside(s) && sign * s.value > best) best = sign * s.value, near_s = s.time_s;
+  const double step_minutes = kStepSeconds / 60 + 1;
+  const double first = std::max(0.0, std::floor(near_s / 60) - step_minutes);
+  const double last = std::min(std::ceil(length_s / 60) - 1, near_s / 60 + step_minutes);
+  best = -std::numeric_limits<double>::infinity();
+  for (double m = first; m <= last; ++m) best = std::max(best, sign * sky.sun_elevation(60 * m));
+  return sign * best * deg;
+}
+
+}  // namespace
+
+std::string name_of(EventKind kind) {
+  for (const auto& [candidate, name] : kNames)
+    if (candidate == kind) return name;
+  assert(false);
+  return {};
+}
+
+std::optional<EventKind> event_kind_from_name(const std::string& name) {
+  for (const auto& [kind, its_name] : kNames)
+    if (name == its_name) return kind;
+  return std::nullopt;
+}
+
+DayEvents day_events(const Ephemeris& ephemeris, const GeodeticPosition& observer,
+                     const CivilDay& day) {
+  if (ephemeris.options().algorithm == SunAlgorithm::preetham) {
+    // Its arctan loses on which side of the meridian the sun stands; elevations are the same.
+    EphemerisOptions full_circle = ephemeris.options();
+    full_circle.algorithm = SunAlgorithm::preetham_atan2;
+    return day_events(Ephemeris(full_circle), observer, day);
+  }
+  DayEvents result{.day = day, .events = {}, .sun_elevation_max = {}, .sun_elevation_min = {}};
+  const double length = (day.end - day.start).in(second);
+  const Sky sky(ephemeris, observer, day.start);
+
+  const SampledCurve elevation_curve([&](double t) { return sky.sun_elevation(t); }, 0, length,
+                                     kStepSeconds);
+  for (const TwilightLevel& l : kSunLevels)
+    set_pair(result, sky, elevation_curve, l.level.in(deg), l.rising, l.setting);
+  result.sun_elevation_max = minute_extreme(sky, elevation_curve, length, +1);
+  result.sun_elevation_min = minute_extreme(sky, elevation_curve, length, -1);
+
+  const SampledCurve east([&](double t) { return sky.sun_east(t); }, 0, length, kStepSeconds);
+  for (const SampledCurve::Crossing& c : east.crossings(0)) {
+    const EventKind kind = c.rising ? EventKind::solar_midnight : EventKind::solar_noon;
+    result.events[static_cast<size_t>(kind)].times.push_back(sky.at(c.time_s));
+  }
+
+  const SampledCurve moon([&](double t) { return sky.moon_limb(t); }, 0, length, kStepSeconds);
+  set_pair(result, sky, moon, 0, EventKind::moonrise, EventKind::moonset);
+  return result;
+}
+
+std::vector<LevelCrossing> sun_level_crossings(const Ephemeris& ephemeris,
+                                               const GeodeticPosition& observer, Instant from,
+                                               Instant to, Angle level) {
+  const double length = (to - from).in(second);
+  if (!(length > 0)) return {};
+  const Sky sky(ephemeris, observer, from);
+  const SampledCurve curve([&](double t) { return sky.sun_elevation(t); }, 0, length, kStepSeconds);
+  std::vector<LevelCrossing> found;
+  for (const SampledCurve::Crossing& c : curve.crossings(level.in(deg)))
+    if (c.time_s > 0) found.push_back({sky.at(c.time_s), c.rising});
+  return found;
+}
+
+}  // namespace skylapse::astro
