@@ -130,13 +130,18 @@ Result<Patterns> make_patterns(Fit fit, const SkyParameters& in) {
 
 SpectralRadiance spectral_radiance(const Patterns& patterns, Wavelength wavelength, Angle theta,
                                    Angle gamma) {
+  return spectral_radiance(patterns, wavelength, cos(theta), gamma);
+}
+
+SpectralRadiance spectral_radiance(const Patterns& patterns, Wavelength wavelength,
+                                   double cos_theta, Angle gamma) {
   assert(patterns.fit == Fit::spectral);
   const double x = (wavelength.in(nm)-band_wavelength_nm(0)) / 40;
   assert(x >= 0 && x <= kBandCount - 1);
   const int i = std::min(static_cast<int>(x), kBandCount - 2);
   const double f = x - i;
-  return ((1 - f) * radiance(patterns.items[i], theta, gamma) +
-          f * radiance(patterns.items[i + 1], theta, gamma)) *
+  return ((1 - f) * radiance(patterns.items[i], cos_theta, gamma) +
+          f * radiance(patterns.items[i + 1], cos_theta, gamma)) *
          W_per_m2_sr_nm;
 }
 

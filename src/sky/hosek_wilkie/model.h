@@ -54,6 +54,9 @@ Result<Patterns> make_patterns(Fit fit, const SkyParameters& parameters);
 /// Radiance between two bands: linear in wavelength. Domain 320..720 nm (asserted), spectral fit.
 SpectralRadiance spectral_radiance(const Patterns& patterns, Wavelength wavelength, Angle theta,
                                    Angle gamma);
+/// The same with cos theta given; values below 0 (rounding) count as 0.
+SpectralRadiance spectral_radiance(const Patterns& patterns, Wavelength wavelength,
+                                   double cos_theta, Angle gamma);
 
 /// Albedo per channel of the XYZ and RGB fits: means of the bands, weighted by the matching
 /// functions (XYZ) or over 600..700, 500..600 and 420..500 nm (R, G, B).

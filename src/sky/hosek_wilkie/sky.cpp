@@ -71,8 +71,8 @@ glm::dvec3 Sky::radiance_xyz(const Direction<Enu>& view, const Direction<Enu>& s
 
 SpectralRadiance Sky::spectral_radiance(Wavelength wavelength, const Direction<Enu>& view,
                                         const Direction<Enu>& sun) const {
-  const Angle theta = atan2_angle(std::hypot(view.x(), view.y()), cos_zenith(view));
-  return hosek_wilkie::spectral_radiance(patterns_, wavelength, theta, separation(view, sun));
+  return hosek_wilkie::spectral_radiance(patterns_, wavelength, cos_zenith(view),
+                                         separation(view, sun));
 }
 
 std::array<double, kBandCount> Sky::diffuse_irradiance_items() const {

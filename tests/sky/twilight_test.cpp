@@ -1,0 +1,92 @@
+#include "sky/twilight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace skylapse::sky {
+namespace {
+
+double lux_at(double elevation_deg) { return clear_sky_illuminance(elevation_deg * deg).in(lux); }
+
+// Values of USNO Circular 171's polynomials, printed with three to four digits. 0.6 %: their
+// rounding, and half of the jump where two of the published pieces meet (largest at -0.8 and 5
+// deg).
+TEST(Twilight, MatchesThePublishedTable) {
+  const struct {
+    double elevation_deg, lux;
+  } table[] = {{90, 128800},   {60, 103100},   {40, 67540},   {30, 46300},    {20, 27380},
+               {15, 19230},    {10, 11120},    {5, 4538},     {3, 2689},      {1, 1268},
+               {0, 759},       {-0.8, 462},    {-1, 405},     {-2, 189},      {-3, 79.1},
+               {-4, 29.9},     {-5, 10.4},     {-6, 3.41},    {-7, 1.09},     {-8, 0.348},
+               {-9, 0.116},    {-10, 0.0421},  {-11, 0.0171}, {-12, 0.00806}, {-13, 0.00456},
+               {-14, 0.00292}, {-16, 0.00144}, {-18, 0.00064}};
+  for (const auto& row : table)
+    EXPECT_NEAR(lux_at(row.elevation_deg) / row.lux, 1, row.elevation_deg == -18 ? 0.008 : 0.006)
+        << row.elevation_deg;
+}
+
+// Between its nodes the curve follows the published polynomials as the header states.
+TEST(Twilight, FollowsThePublishedPolynomialsBetweenTheNodes) {
+  const struct {
+    double from, to, l0, l1, l2, l3;
+  } pieces[] = {
+      {20, 90, 3.74, 3.97, -4.07, 1.47},         {5, 20, 3.05, 13.28, -45.98, 64.33},
+      {-0.8, 5, 2.88, 22.26, -207.64, 1034.30},  {-5, -0.8, 2.88, 21.81, -258.11, -858.36},
+      {-12, -5, 2.70, 12.17, -431.69, -1899.83}, {-18, -12, 13.84, 262.72, 1447.42, 2797.93}};
+  double worst = 0, worst_night = 0;
+  for (const auto& p : pieces)
+    for (double h = p.from; h <= p.to; h += 0.01) {
+      const double x = h / 90;
+      const double published = std::pow(10, p.l0 + x * (p.l1 + x * (p.l2 + x * p.l3)));
+      const double error = std::abs(lux_at(h) / published - 1);
+      (h < -17.5 ? worst_night : worst) = std::max(h < -17.5 ? worst_night : worst, error);
+    }
+  EXPECT_LT(worst, 0.006);
+  EXPECT_LT(worst_night, 0.04);
+}
+
+TEST(Twilight, RisesMonotonouslyFromNightToNoon) {
+  double previous = lux_at(-18);
+  for (double h = -17.99; h <= 90; h += 0.01) {
+    const double value = lux_at(h);
+    EXPECT_GT(value, previous) << h;
+    previous = value;
+  }
+}
+
+// One degree of a sun's path is four minutes: a kink in log E would show as a flicker.
+TEST(Twilight, HasNoJumpAndNoKink) {
+  constexpr double kStep = 1e-4;
+  auto slope = [](double h) {
+    return (std::log10(lux_at(h + kStep)) - std::log10(lux_at(h))) / kStep;
+  };
+  for (double h = -19; h < 89.9; h += 0.05) {
+    EXPECT_NEAR(lux_at(h + 1e-9) / lux_at(h), 1, 1e-8) << h;
+    EXPECT_NEAR(slope(h), slope(h - kStep), 2e-3) << h;
+  }
+  for (const double joint : {-18.0, -12.0, -5.0, -0.8, 5.0, 20.0})
+    EXPECT_NEAR(slope(joint), slope(joint - kStep), 2e-3) << joint;
+}
+
+TEST(Twilight, StaysAtTheNightValueBelowMinusEighteenDegrees) {
+  EXPECT_EQ(lux_at(-18), lux_at(-18.001));
+  EXPECT_EQ(lux_at(-18), lux_at(-90));
+}
+
+TEST(Twilight, LevelIsOneAtTheHorizonAndFollowsTheIlluminanceBelow) {
+  const Angle horizon = -0.57 * deg;
+  EXPECT_EQ(twilight_level(horizon, horizon), 1.0);
+  EXPECT_EQ(twilight_level(20 * deg, horizon), 1.0);
+  EXPECT_NEAR(twilight_level(horizon - 1e-9 * deg, horizon), 1.0, 1e-8);
+  EXPECT_NEAR(twilight_level(-6 * deg, horizon), lux_at(-6) / lux_at(-0.57), 1e-12);
+  double previous = 1.0;
+  for (double h = -0.58; h > -18; h -= 0.01) {
+    const double level = twilight_level(h * deg, horizon);
+    EXPECT_LT(level, previous) << h;
+    previous = level;
+  }
+}
+
+}  // namespace
+}  // namespace skylapse::sky
