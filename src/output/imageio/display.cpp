@@ -8,27 +8,35 @@
 
 #include "output/imageio/builtin_config.h"
 #include "output/imageio/scene_space.h"
+#include "output/imageio/staged_processor.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace skylapse::output::imageio {
 namespace {
 
+/// A quarter of an 8-bit code: what the quick form of a transform may differ from the exact one.
+constexpr float kTolerance = 0.25f / 255.0f;
+
 class OcioDisplay final : public DisplayTransform {
  public:
-  explicit OcioDisplay(OCIO::ConstCPUProcessorRcPtr processor) : processor_(std::move(processor)) {}
+  OcioDisplay(OCIO::ConstCPUProcessorRcPtr plain, std::unique_ptr<StagedProcessor> staged)
+      : plain_(std::move(plain)), staged_(std::move(staged)) {}
   void apply(float* rgb, size_t pixels) const override {
-    // Lines short enough that the processor's own copy of them stays in the nearest cache.
-    constexpr size_t kLine = 1024;
-    for (size_t done = 0; done < pixels; done += kLine) {
-      const auto width = static_cast<long>(std::min(kLine, pixels - done));
-      OCIO::PackedImageDesc line(rgb + 3 * done, width, 1, 3);
-      processor_->apply(line);
+    // Pieces that stay in the nearest cache from the first stage to the last.
+    constexpr size_t kPiece = 1024;
+    for (size_t done = 0; done < pixels; done += kPiece) {
+      const size_t count = std::min(kPiece, pixels - done);
+      if (staged_)
+        staged_->apply(rgb + 3 * done, count);
+      else
+        apply_processor(*plain_, rgb + 3 * done, count);
     }
   }
 
  private:
-  OCIO::ConstCPUProcessorRcPtr processor_;
+  OCIO::ConstCPUProcessorRcPtr plain_;
+  std::unique_ptr<StagedProcessor> staged_;  // null: use plain_
 };
 
 Error invalid(std::string message, std::string hint) {
@@ -111,8 +119,10 @@ Result<std::unique_ptr<DisplayTransform>> make_display_transform(const DisplayRe
     auto all = OCIO::GroupTransform::Create();
     all->appendTransform(ocio_matrix(scene->matrix));
     all->appendTransform(to_view);
-    const auto cpu = c.getProcessor(all)->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_VERY_GOOD);
-    return std::unique_ptr<DisplayTransform>(std::make_unique<OcioDisplay>(cpu));
+    const auto processor = c.getProcessor(all);
+    return std::unique_ptr<DisplayTransform>(std::make_unique<OcioDisplay>(
+        processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_VERY_GOOD),
+        StagedProcessor::build(*config, processor, kTolerance)));
   } catch (const OCIO::Exception& e) {
     return invalid("display '" + *display + "', view '" + *view + "': " + e.what(), "");
   }

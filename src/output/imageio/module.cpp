@@ -17,6 +17,7 @@ class ModuleImageIo final : public ImageIo {
     const int threads = available_cores();
     OIIO::attribute("threads", threads);
     OIIO::attribute("exr_threads", threads);
+    OIIO::attribute("debug", 0);  // the Debian build writes notes to stderr otherwise
     OCIO_NAMESPACE::SetLoggingLevel(OCIO_NAMESPACE::LOGGING_LEVEL_NONE);
   }
   Result<std::vector<std::byte>> encode(const EncodeRequest& request) const override {
