@@ -19,12 +19,9 @@ namespace {
 using nlohmann::json;
 
 std::string to_line(const LedgerEntry& entry) {
-  const json line = {{"path", entry.path},
-                     {"fingerprint", entry.fingerprint},
-                     {"sha256", entry.sha256},
-                     {"bytes", entry.bytes},
-                     {"ms", entry.times.ms},
-                     {"encoding", entry.encoding}};
+  const json line = {{"path", entry.path},     {"fingerprint", entry.fingerprint},
+                     {"sha256", entry.sha256}, {"bytes", entry.bytes},
+                     {"ms", entry.times.ms},   {"encoding", entry.encoding}};
   return line.dump() + "\n";
 }
 
@@ -71,7 +68,8 @@ Result<Ledger> Ledger::open(const std::filesystem::path& output_folder, const st
   Ledger ledger(output_folder, folder_of(output_folder) / ("ledger." + writer + ".jsonl"));
   const Status folder = output::make_parent_folders(ledger.own_file_);
   if (!folder) return folder.error();
-  ledger.descriptor_ = ::open(ledger.own_file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  ledger.descriptor_ =
+      ::open(ledger.own_file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (ledger.descriptor_ < 0) return output::write_error(ledger.own_file_, errno);
   const Status read = ledger.refresh();
   if (!read) return read.error();
@@ -87,7 +85,7 @@ Status Ledger::refresh() {
     if (file.path().extension() != ".jsonl") continue;
     std::ifstream lines(file.path());
     for (std::string line; std::getline(lines, line);)
-      if (auto entry = from_line(line)) entries_[entry->path] = *entry;
+      if (auto entry = from_line(line)) entries_[{entry->path, entry->fingerprint}] = *entry;
   }
   return Done{};
 }
@@ -100,20 +98,21 @@ Status Ledger::record(const LedgerEntry& entry) {
   const ssize_t written = ::write(descriptor_, line.data(), line.size());
   if (written != ssize_t(line.size()))
     return output::write_error(own_file_, written < 0 ? errno : ENOSPC);
-  entries_[entry.path] = entry;
+  entries_[{entry.path, entry.fingerprint}] = entry;
   return Done{};
 }
 
-std::optional<LedgerEntry> Ledger::find(const std::string& path) const {
+std::optional<LedgerEntry> Ledger::find(const std::string& path,
+                                        const std::string& fingerprint) const {
   const std::lock_guard lock(*mutex_);
-  const auto entry = entries_.find(path);
+  const auto entry = entries_.find({path, fingerprint});
   return entry == entries_.end() ? std::nullopt : std::optional(entry->second);
 }
 
 std::optional<LedgerEntry> Ledger::finished(const std::string& path,
                                             const std::string& fingerprint) const {
-  const auto entry = find(path);
-  if (!entry || entry->fingerprint != fingerprint) return {};
+  const auto entry = find(path, fingerprint);
+  if (!entry) return {};
   const auto bytes = output::read_file(output_folder_ / path);
   if (!bytes || bytes->size() != entry->bytes || sha256_hex(*bytes) != entry->sha256) return {};
   return entry;

@@ -38,7 +38,8 @@ class Ledger {
   [[nodiscard]] std::optional<LedgerEntry> finished(const std::string& path,
                                                     const std::string& fingerprint) const;
   /// The entry as recorded, the file not looked at.
-  [[nodiscard]] std::optional<LedgerEntry> find(const std::string& path) const;
+  [[nodiscard]] std::optional<LedgerEntry> find(const std::string& path,
+                                                const std::string& fingerprint) const;
 
   /// Reads again what other processes have recorded meanwhile.
   Status refresh();
@@ -48,7 +49,8 @@ class Ledger {
   std::filesystem::path output_folder_;
   std::filesystem::path own_file_;
   int descriptor_ = -1;
-  std::map<std::string, LedgerEntry> entries_;
+  // By path and fingerprint: another process's older record of a path never hides a newer one.
+  std::map<std::pair<std::string, std::string>, LedgerEntry> entries_;
   std::unique_ptr<std::mutex> mutex_;
 };
 

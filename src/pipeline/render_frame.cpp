@@ -44,11 +44,10 @@ Result<RenderedFrame> render_frame(const plan::Plan& plan, const plan::Frame& fr
   }
   if (keep_without_disc) out.scene_without_disc = out.scene;
 
-  const sky::SunDisc disc{frame.sky.sun_apparent, frame.sky.sun_radius,
-                          [&](Angle view_elevation, double limb) {
-                            return sky->disc_radiance_xyz(view_elevation, limb) *
-                                   frame.sun.distance_factor;
-                          }};
+  const sky::SunDisc disc{
+      frame.sky.sun_apparent, frame.sky.sun_radius, [&](Angle view_elevation, double limb) {
+        return sky->disc_radiance_xyz(view_elevation, limb) * frame.sun.distance_factor;
+      }};
   const sky::DiscEnergy energy = sky::disc_energy(disc);
   out.sun_irradiance_xyz = energy.horizontal_irradiance;
   out.sun_normal_irradiance_xyz = energy.normal_irradiance;

@@ -192,6 +192,12 @@ Result<astro::Zone> zone_of(const config::JobConfig& job, const config::Site& si
 
 }  // namespace
 
+Result<Instant> resolve_time(const config::TimeExpression& time, const year_month_day& day,
+                             const config::Site& site, const astro::Zone& zone) {
+  SiteDays days(site, zone);
+  return resolve(time, day, days);
+}
+
 Result<Schedule, Diagnostics> make_schedule(const config::JobConfig& job) {
   Schedule schedule;
   Diagnostics errors;

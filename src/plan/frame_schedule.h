@@ -30,4 +30,9 @@ struct Schedule {
 /// repeats, an event that does not happen on that day, an interval that ends before it begins.
 Result<Schedule, Diagnostics> make_schedule(const config::JobConfig& job);
 
+/// One time expression at one site; `day` is used unless the expression carries a date.
+Result<astro::Instant> resolve_time(const config::TimeExpression& time,
+                                    const std::chrono::year_month_day& day,
+                                    const config::Site& site, const astro::Zone& zone);
+
 }  // namespace skylapse::plan

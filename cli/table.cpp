@@ -1,0 +1,95 @@
+#include "cli/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "cli/csv.h"
+
+namespace skylapse::cli {
+namespace {
+
+std::string aligned(const Table& table) {
+  std::vector<size_t> widths;
+  for (size_t c = 0; c < table.columns.size(); ++c) {
+    size_t width = table.columns[c].size();
+    for (const auto& row : table.rows) width = std::max(width, row[c].text.size());
+    widths.push_back(width);
+  }
+  std::string text;
+  const auto add_line = [&](auto cell_text, auto is_number) {
+    std::string line;
+    for (size_t c = 0; c < widths.size(); ++c)
+      line += fmt::format("{}{:{}{}}", c ? "  " : "", cell_text(c), is_number(c) ? '>' : '<',
+                          widths[c]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  };
+  const auto numeric = [&](size_t c) { return !table.rows.empty() && table.rows[0][c].number; };
+  add_line([&](size_t c) { return table.columns[c]; }, numeric);
+  for (const auto& row : table.rows)
+    add_line([&](size_t c) { return row[c].text; }, [&](size_t c) { return row[c].number; });
+  return text;
+}
+
+std::string as_csv(const Table& table) {
+  std::string text = csv_line(table.columns);
+  for (const auto& row : table.rows) {
+    std::vector<std::string> fields;
+    for (const Cell& cell : row) fields.push_back(cell.text);
+    text += csv_line(fields);
+  }
+  return text;
+}
+
+std::string as_json(const Table& table) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const auto& row : table.rows) {
+    nlohmann::ordered_json object;
+    for (size_t c = 0; c < row.size(); ++c) {
+      const double value = row[c].number ? std::strtod(row[c].text.c_str(), nullptr) : 0;
+      if (!row[c].number)
+        object[table.columns[c]] = row[c].text;
+      else if (std::isfinite(value))
+        object[table.columns[c]] = value;
+      else
+        object[table.columns[c]] = nullptr;
+    }
+    rows.push_back(std::move(object));
+  }
+  return rows.dump(2) + "\n";
+}
+
+}  // namespace
+
+Result<TableFormat> table_format_from_name(const std::string& name) {
+  if (name == "table") return TableFormat::table;
+  if (name == "csv") return TableFormat::csv;
+  if (name == "json") return TableFormat::json;
+  return Error{ErrorCode::invalid_input,
+               fmt::format("--format: '{}' is unknown", name),
+               {},
+               "allowed: table, csv, json"};
+}
+
+Cell number_cell(double value, int decimals) {
+  return {std::isnan(value) ? "nan" : fmt::format("{:.{}f}", value, decimals), true};
+}
+
+Cell text_cell(std::string text) { return {std::move(text), false}; }
+
+std::string format_table(const Table& table, TableFormat format) {
+  switch (format) {
+    case TableFormat::csv:
+      return as_csv(table);
+    case TableFormat::json:
+      return as_json(table);
+    case TableFormat::table:
+      break;
+  }
+  return aligned(table);
+}
+
+}  // namespace skylapse::cli

@@ -1,0 +1,32 @@
+#pragma once
+// All frames of a day at one glance.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "pipeline/existing_frames.h"
+
+namespace skylapse::pipeline {
+
+struct SheetSettings {
+  int columns = 0;  // 0: about as wide as high
+  int thumbnail_width = 240;
+  int max_frames = 120;  // evenly chosen if there are more
+};
+
+/// Writes a PNG or JPEG sheet of labelled thumbnails, whole. Scene-linear files (.exr, .hdr) are
+/// shown as they are stored, clipped to 0..1 and sRGB-encoded.
+Status make_contact_sheet(const std::vector<ExistingFrame>& frames,
+                          const std::filesystem::path& file, const SheetSettings& settings);
+
+struct MovieOfFrames {
+  double frames_per_second = 30;
+  int crf = 18;
+};
+
+/// Movie of existing pictures, which must all have the size of the first.
+Status make_movie_of_frames(const std::vector<ExistingFrame>& frames,
+                            const std::filesystem::path& file, const MovieOfFrames& settings);
+
+}  // namespace skylapse::pipeline

@@ -1,0 +1,233 @@
+#include "pipeline/run_job.h"
+
+#include <tbb/parallel_pipeline.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <set>
+
+#include "core/parallel.h"
+#include "output/atomic_file.h"
+#include "pipeline/fingerprint.h"
+#include "pipeline/job_context.h"
+#include "pipeline/manifest.h"
+#include "pipeline/movie_pass.h"
+
+namespace skylapse::pipeline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool is_image(const config::Output& output) {
+  return std::holds_alternative<config::ImageOutput>(output);
+}
+
+bool wants_sky_without_disc(const config::JobConfig& job) {
+  return std::any_of(job.outputs.begin(), job.outputs.end(), [](const config::Output& output) {
+    const auto* image = std::get_if<config::ImageOutput>(&output);
+    return image != nullptr && image->sample_type == output::SampleType::half_float &&
+           image->sun_policy == output::SunPolicy::split;
+  });
+}
+
+/// One frame on its way: which of its outputs are missing, and what came of it.
+struct Task {
+  long number = 0;
+  std::vector<size_t> missing;
+  StageTimes times;
+  uintmax_t bytes = 0;
+  std::optional<Error> error;
+};
+
+/// The first error of any thread, and the running totals.
+class Collector {
+ public:
+  Collector(const JobContext& job, RunSummary& summary, Clock::time_point start)
+      : job_(job), summary_(summary), start_(start) {}
+
+  [[nodiscard]] bool failed() const { return failed_.load(); }
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+  void take(const Task& task) {
+    if (task.error) {
+      if (!error_) error_ = task.error;
+      failed_ = true;
+      return;
+    }
+    task.missing.empty() ? ++summary_.kept : ++summary_.rendered;
+    summary_.times += task.times;
+    summary_.bytes_written += task.bytes;
+    if (job_.options.on_progress)
+      job_.options.on_progress({summary_.kept + summary_.rendered, long(job_.options.frames.size()),
+                                summary_.kept, seconds_since(start_), "frames"});
+  }
+
+ private:
+  const JobContext& job_;
+  RunSummary& summary_;
+  Clock::time_point start_;
+  std::atomic<bool> failed_ = false;
+  std::optional<Error> error_;
+};
+
+void find_missing(const JobContext& job, Task& task) {
+  const plan::Frame& frame = job.frame(task.number);
+  for (size_t o = 0; o < job.plan.job.outputs.size(); ++o)
+    if (is_image(job.plan.job.outputs[o]) && (job.options.overwrite || !job.finished(frame, o)))
+      task.missing.push_back(o);
+}
+
+void run_task(const JobContext& job, Task& task) {
+  find_missing(job, task);
+  if (task.missing.empty()) return;
+  const plan::Frame& frame = job.frame(task.number);
+  const auto rendered =
+      render_frame(job.plan, frame, wants_sky_without_disc(job.plan.job), task.times);
+  if (!rendered) {
+    task.error = rendered.error();
+    return;
+  }
+  for (const size_t o : task.missing) {
+    if (job.stopped()) {
+      task.error = interrupted();
+      return;
+    }
+    auto entries = write_image_output(job.io, job.plan, frame, *rendered, o, job.displays,
+                                      job.options.output, job.fingerprint(frame, o), task.times);
+    if (!entries) {
+      task.error = entries.error();
+      return;
+    }
+    for (LedgerEntry& entry : *entries) {
+      entry.times = task.times;
+      task.bytes += entry.bytes;
+      const Status recorded = job.ledger.record(entry);
+      if (!recorded) task.error = recorded.error();
+    }
+  }
+}
+
+/// Frames overlap: the pipeline admits a bounded number, each thread carries one through.
+std::optional<Error> render_all(const JobContext& job, RunSummary& summary,
+                                Clock::time_point start) {
+  Collector collector(job, summary, start);
+  const auto& frames = job.options.frames;
+  size_t next = 0;
+  const auto feed = [&](tbb::flow_control& control) -> Task {
+    if (next == frames.size() || job.stopped() || collector.failed()) {
+      control.stop();
+      return {};
+    }
+    Task task;
+    task.number = frames[next++];
+    return task;
+  };
+  const int threads = job.options.jobs > 0 ? job.options.jobs : available_cores();
+  tbb::parallel_pipeline(
+      size_t(frames_in_flight(job.plan, threads)),
+      tbb::make_filter<void, Task>(tbb::filter_mode::serial_in_order, feed) &
+          tbb::make_filter<Task, Task>(tbb::filter_mode::parallel,
+                                       [&](Task task) {
+                                         run_task(job, task);
+                                         return task;
+                                       }) &
+          tbb::make_filter<Task, void>(tbb::filter_mode::serial_out_of_order,
+                                       [&](const Task& task) { collector.take(task); }));
+  if (collector.error()) return collector.error();
+  if (job.stopped()) return interrupted();
+  return {};
+}
+
+/// Temporaries that killed processes left beside the outputs.
+void remove_leftovers(const JobContext& job) {
+  std::set<std::filesystem::path> folders{job.options.output};
+  for (const plan::Frame& frame : job.plan.frames)
+    for (const auto& path : frame.paths) folders.insert((job.options.output / path).parent_path());
+  for (const auto& folder : folders) output::remove_stale_temporaries(folder);
+}
+
+std::string writer_name(const plan::Shard& shard) {
+  return shard.parts == 1
+             ? "all"
+             : "shard-" + std::to_string(shard.part) + "-of-" + std::to_string(shard.parts);
+}
+
+bool all_recorded(const JobContext& job) {
+  for (const plan::Frame& frame : job.plan.frames)
+    for (size_t o = 0; o < job.plan.job.outputs.size(); ++o)
+      if (is_image(job.plan.job.outputs[o]) && !job.recorded(frame, o)) return false;
+  return true;
+}
+
+}  // namespace
+
+std::string JobContext::fingerprint(const plan::Frame& frame, size_t output) const {
+  return image_fingerprint(plan, frame, std::get<config::ImageOutput>(plan.job.outputs[output]),
+                           color_config);
+}
+
+bool JobContext::finished(const plan::Frame& frame, size_t output) const {
+  const std::string print = fingerprint(frame, output);
+  const auto files = plan::files_of(plan, frame, output);
+  return std::all_of(files.begin(), files.end(),
+                     [&](const std::string& file) { return ledger.finished(file, print); });
+}
+
+bool JobContext::recorded(const plan::Frame& frame, size_t output) const {
+  const std::string print = fingerprint(frame, output);
+  const auto files = plan::files_of(plan, frame, output);
+  return std::all_of(files.begin(), files.end(),
+                     [&](const std::string& file) { return ledger.find(file, print); });
+}
+
+int frames_in_flight(const plan::Plan& plan, int threads) {
+  constexpr double kBudgetBytes = 2.0 * 1024 * 1024 * 1024;
+  // Scene, its copy for a half file or without the disc, and display values: floats, three each.
+  constexpr double kBytesPerPixel = 3 * 3 * sizeof(float);
+  double largest = 1;
+  for (const auto& camera : plan.job.cameras)
+    largest = std::max(largest, double(camera.camera.width) * camera.camera.height);
+  return std::clamp(int(kBudgetBytes / (largest * kBytesPerPixel)), 1, threads + 1);
+}
+
+Result<RunSummary> run_job(const plan::Plan& plan, const RunOptions& options) {
+  const auto start = Clock::now();
+  const ThreadLimit limit(options.jobs);
+  const auto io = output::open_image_io();
+  if (!io) return io.error();
+  const auto color_config = color_config_hash(plan.job);
+  if (!color_config) return color_config.error();
+  const auto displays = Displays::make(**io, plan.job);
+  if (!displays) return displays.error();
+  const Status movies_possible = check_movies_possible(plan);
+  if (!movies_possible) return movies_possible.error();
+  auto ledger = Ledger::open(options.output, writer_name(options.shard));
+  if (!ledger) return ledger.error();
+  const JobContext job{plan, options, **io, *displays, *ledger, *color_config};
+  remove_leftovers(job);
+
+  RunSummary summary;
+  auto failure = render_all(job, summary, start);
+  const Status refreshed = ledger->refresh();
+  if (!failure && !refreshed) failure = refreshed.error();
+  if (!failure) {
+    const auto movie_start = Clock::now();
+    const Status movies = make_movies(job, summary);
+    if (!movies) failure = movies.error();
+    summary.movie_seconds = seconds_since(movie_start);
+  }
+  summary.complete = all_recorded(job);
+  // What is finished is written down even if the job failed; the first failure is what counts.
+  const Status manifest = write_manifest(job);
+  if (!failure && !manifest) failure = manifest.error();
+  summary.seconds = seconds_since(start);
+  if (failure) return *failure;
+  return summary;
+}
+
+}  // namespace skylapse::pipeline
