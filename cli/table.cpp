@@ -11,26 +11,28 @@
 namespace skylapse::cli {
 namespace {
 
+/// Numbers to the right, text to the left.
+std::string padded(const std::string& text, size_t width, bool number) {
+  const std::string blanks(width > text.size() ? width - text.size() : 0, ' ');
+  return number ? blanks + text : text + blanks;
+}
+
 std::string aligned(const Table& table) {
-  std::vector<size_t> widths;
-  for (size_t c = 0; c < table.columns.size(); ++c) {
-    size_t width = table.columns[c].size();
-    for (const auto& row : table.rows) width = std::max(width, row[c].text.size());
-    widths.push_back(width);
-  }
+  std::vector<std::vector<Cell>> lines{{}};
+  for (size_t c = 0; c < table.columns.size(); ++c)
+    lines[0].push_back({table.columns[c], !table.rows.empty() && table.rows[0][c].number});
+  lines.insert(lines.end(), table.rows.begin(), table.rows.end());
+  std::vector<size_t> widths(table.columns.size());
+  for (const auto& line : lines)
+    for (size_t c = 0; c < widths.size(); ++c) widths[c] = std::max(widths[c], line[c].text.size());
   std::string text;
-  const auto add_line = [&](auto cell_text, auto is_number) {
-    std::string line;
+  for (const auto& line : lines) {
+    std::string row;
     for (size_t c = 0; c < widths.size(); ++c)
-      line += fmt::format("{}{:{}{}}", c ? "  " : "", cell_text(c), is_number(c) ? '>' : '<',
-                          widths[c]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  };
-  const auto numeric = [&](size_t c) { return !table.rows.empty() && table.rows[0][c].number; };
-  add_line([&](size_t c) { return table.columns[c]; }, numeric);
-  for (const auto& row : table.rows)
-    add_line([&](size_t c) { return row[c].text; }, [&](size_t c) { return row[c].number; });
+      row += (c ? "  " : "") + padded(line[c].text, widths[c], line[c].number);
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + "\n";
+  }
   return text;
 }
 

@@ -43,6 +43,7 @@ struct DecodedImage {
   image::FrameBuffer pixels;  // as stored, integers scaled to 0..1
   std::vector<Attribute> attributes;
   int stored_bits = 0;
+  bool floating_point = false;  // half or float samples: scene-linear by custom
 };
 
 /// Scene-linear to display, through an OpenColorIO display and view. Safe for use by many threads.
@@ -54,10 +55,10 @@ class DisplayTransform {
 };
 
 struct DisplayRequest {
-  std::string config_file;   // empty: $OCIO, else the built-in ACES config
-  std::string scene_space;   // "rec709", "rec2020", "acescg", "aces2065-1" (linear)
-  std::string display;       // empty: the config's default
-  std::string view;          // empty: the default view of that display
+  std::string config_file;  // empty: $OCIO, else the built-in ACES config
+  std::string scene_space;  // "rec709", "rec2020", "acescg", "aces2065-1" (linear)
+  std::string display;      // empty: the config's default
+  std::string view;         // empty: the default view of that display
 };
 
 class ImageIo {
@@ -66,9 +67,17 @@ class ImageIo {
   /// The whole file in memory. Same request, same bytes.
   virtual Result<std::vector<std::byte>> encode(const EncodeRequest& request) const = 0;
   virtual Result<DecodedImage> decode(const std::string& path) const = 0;
-  virtual Result<std::unique_ptr<DisplayTransform>> display(const DisplayRequest& request) const = 0;
+  virtual Result<std::unique_ptr<DisplayTransform>> display(
+      const DisplayRequest& request) const = 0;
   /// Displays and their views of a config, "display/view" each, default first.
   virtual Result<std::vector<std::string>> views(const std::string& config_file) const = 0;
+  /// Scaled by a filter that averages over the pixels it shrinks.
+  virtual Result<image::FrameBuffer> resized(const image::FrameBuffer& image, int width,
+                                             int height) const = 0;
+  /// White text with its baseline at row `y`, `height` pixels high. Needs a font on the machine;
+  /// without one the picture stays as it is.
+  virtual Status draw_text(image::FrameBuffer& image, int x, int y, int height,
+                           const std::string& text) const = 0;
   virtual std::string versions() const = 0;  // "OpenImageIO 2.4.7, OpenColorIO 2.1.2"
 };
 

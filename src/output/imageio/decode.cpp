@@ -65,6 +65,7 @@ Result<DecodedImage> decode(const std::string& path) {
           loose[i * static_cast<size_t>(count) + static_cast<size_t>(rgb[c] - first)];
   for (const OIIO::ParamValue& p : spec.extra_attribs)
     if (auto a = to_attribute(p)) image.attributes.push_back(std::move(*a));
+  image.floating_point = spec.format.is_floating_point();
   const int stored = spec.get_int_attribute("oiio:BitsPerSample");
   image.stored_bits = stored > 0 ? stored : static_cast<int>(spec.format.size() * 8);
   return image;

@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "output/imageio/decode.h"
 #include "output/imageio/display.h"
+#include "output/imageio/draw.h"
 #include "output/imageio/encode.h"
 #include "output/imageio/module_abi.h"
 
@@ -31,6 +32,14 @@ class ModuleImageIo final : public ImageIo {
   }
   Result<std::vector<std::string>> views(const std::string& config_file) const override {
     return imageio::list_views(config_file);
+  }
+  Result<image::FrameBuffer> resized(const image::FrameBuffer& image, int width,
+                                     int height) const override {
+    return imageio::resized(image, width, height);
+  }
+  Status draw_text(image::FrameBuffer& image, int x, int y, int height,
+                   const std::string& text) const override {
+    return imageio::draw_text(image, x, y, height, text);
   }
   std::string versions() const override {
     const int v = OIIO::openimageio_version();
