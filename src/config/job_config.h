@@ -27,12 +27,13 @@ struct Site {
 
 /// "2026-06-21 sunrise - 45 min", "04:30", "2026-06-21T04:30+02:00", "solar_noon".
 struct TimeExpression {
-  std::optional<std::chrono::year_month_day> date;         // else the day being expanded
-  std::optional<std::chrono::microseconds> clock;          // since local midnight (24:00 allowed)
-  std::optional<std::chrono::seconds> utc_offset;          // written with the time, wins over zones
-  bool leap_second = false;                                // the clock read 23:59:60
-  std::optional<astro::EventKind> anchor;                  // exactly one of clock and anchor
-  Duration offset{};                                       // added last
+  std::optional<std::chrono::year_month_day> date;  // else the day being expanded
+  // Since local midnight (24:00 allowed); of a leap second, hh:mm:60: the next minute.
+  std::optional<std::chrono::microseconds> clock;
+  std::optional<std::chrono::seconds> utc_offset;  // written with the time, wins over zones
+  bool leap_second = false;                        // the clock read 23:59:60
+  std::optional<astro::EventKind> anchor;          // exactly one of clock and anchor
+  Duration offset{};                               // added last
   SourceSpan span;
 };
 
@@ -42,16 +43,24 @@ struct DateRange {
   SourceSpan span;
 };
 
-struct FixedStep { Duration step; };
-struct FrameCount { long count = 0; };           // evenly from `from` to `to`, both included
-struct ElevationStep { Angle step; };            // each crossing of a multiple of `step`
-struct ExplicitTimes { std::vector<TimeExpression> times; };
+struct FixedStep {
+  Duration step;
+};
+struct FrameCount {
+  long count = 0;
+};  // evenly from `from` to `to`, both included
+struct ElevationStep {
+  Angle step;
+};  // each crossing of a multiple of `step`
+struct ExplicitTimes {
+  std::vector<TimeExpression> times;
+};
 using Sampling = std::variant<FixedStep, FrameCount, ElevationStep, ExplicitTimes>;
 
 struct TimePlan {
   std::optional<Spanned<std::string>> zone;
-  std::vector<DateRange> dates;  // empty only if every expression carries its own date
-  std::optional<TimeExpression> from, to;
+  std::vector<DateRange> dates;            // empty only if every expression carries its own date
+  std::optional<TimeExpression> from, to;  // both there unless the times are explicit
   Sampling sampling;
   Duration dut1{};
   SourceSpan span;
@@ -59,14 +68,15 @@ struct TimePlan {
 
 /// Ground reflectance: grey, or a named spectrum of data/spectral/ground_albedo.
 struct Albedo {
-  std::string name;    // "0.2", "grass"
-  double value = 0;    // grey value; for a named spectrum its mean over 400..700 nm
+  std::string name;  // "0.2", "grass"
+  double value = 0;  // grey value; for a named spectrum its mean over 400..700 nm
   bool spectral = false;
 };
 
 /// One dimension of the job per list: the frames of all combinations are rendered.
 struct Air {
-  std::vector<Spanned<double>> turbidity{{2.5, {}}};  // 1..10, from turbidity, visibility or aerosol depth
+  std::vector<Spanned<double>> turbidity{
+      {2.5, {}}};  // 1..10, from turbidity, visibility or aerosol depth
   std::vector<Spanned<Albedo>> ground_albedo{{{"0.2", 0.2, false}, {}}};
   astro::RefractionConditions refraction;
 };
@@ -98,19 +108,23 @@ struct ImageOutput {
   std::string format;         // "exr", "hdr", "png", "jpg", "tif", by the extension
   output::SampleType sample_type = output::SampleType::float32;
   output::SunPolicy sun_policy = output::SunPolicy::clip;  // of formats that cannot hold the disc
-  std::optional<std::string> display, view;  // display-referred outputs; nothing: scene-linear
-  int quality = 92;                          // jpeg
-  std::string compression = "zip";           // exr: none, zip, zips, piz, dwaa
+  // Display-referred if and only if there is a view; an empty one is the display's default.
+  std::optional<std::string> display, view;
+  int quality = 92;                 // jpeg
+  std::string compression = "zip";  // exr: none, zip, zips, piz, dwaa
 };
 
 struct MovieOutput {
   Spanned<std::string> path;
   double frames_per_second = 30;
-  std::optional<std::string> display, view;
+  std::optional<std::string> display, view;  // always display-referred: there is a view
   int crf = 18;
 };
 
 using Output = std::variant<ImageOutput, MovieOutput>;
+
+/// More frames than this in one job are refused: a year at one in three seconds.
+inline constexpr long kMaxJobFrames = 10'000'000;
 
 struct JobConfig {
   std::string file;

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/build_job.h"
+
+namespace skylapse::config {
+namespace {
+
+double days_in(const DateRange& range) {
+  const auto span = std::chrono::sys_days(range.last) - std::chrono::sys_days(range.first);
+  return std::floor(double(span.count()) / range.step_days) + 1;
+}
+
+/// An upper bound of the time from `from` to `to`: exact for clock times, and for events of the sun
+/// as if they could lie anywhere in their day.
+double longest_span_s(const TimePlan& time) {
+  if (!time.from || !time.to) return 86400;
+  const auto edge = [](const TimeExpression& t, double anywhere) {
+    const double day =
+        t.date ? double(std::chrono::sys_days(*t.date).time_since_epoch().count()) : 0;
+    const double clock = t.clock ? double(t.clock->count()) * 1e-6 : anywhere;
+    return day * 86400 + clock + t.offset.in(second);
+  };
+  const double zones = time.from->utc_offset != time.to->utc_offset ? 86400 : 7200;
+  return std::max(0.0, edge(*time.to, 86400) - edge(*time.from, 0) + zones);
+}
+
+/// Most frames of one site and day.
+double frames_per_day(const TimePlan& time) {
+  if (const auto* list = std::get_if<ExplicitTimes>(&time.sampling))
+    return double(list->times.size());
+  if (const auto* count = std::get_if<FrameCount>(&time.sampling)) return double(count->count);
+  const double span = longest_span_s(time);
+  if (const auto* step = std::get_if<FixedStep>(&time.sampling))
+    return std::floor(span / step->step.in(second)) + 1;
+  const Angle step = std::get<ElevationStep>(time.sampling).step;
+  // The sun rises and sinks once a day, through 180 degrees at most each way.
+  return std::ceil(span / 86400) * 2 * (std::floor(180 * deg / step) + 1);
+}
+
+std::string_view sampling_key(const Sampling& sampling) {
+  switch (sampling.index()) {
+    case 0:
+      return "step";
+    case 1:
+      return "frames";
+    case 2:
+      return "every";
+    default:
+      return "at";
+  }
+}
+
+}  // namespace
+
+void check_frame_count(const Section& root, const JobConfig& job, const ReadContext& context) {
+  const auto time = only_section(root, "time");
+  if (!time) return;
+  double days = job.time.dates.empty() ? 1 : 0;
+  for (const DateRange& range : job.time.dates) days += days_in(range);
+  const double per_day = frames_per_day(job.time);
+  const double lists = double(job.sites.size()) * double(job.air.turbidity.size()) *
+                       double(job.air.ground_albedo.size()) * double(job.cameras.size());
+  const double frames = per_day * days * lists;
+  if (frames <= double(kMaxJobFrames)) return;
+  context.errors.add(
+      time->place_of(sampling_key(job.time.sampling)),
+      fmt::format("this job asks for up to {:.3g} frames", frames),
+      fmt::format("allowed: at most {} ({} days x {:.4g} a day x {} combinations of locations, "
+                  "cameras and air)",
+                  kMaxJobFrames, days, per_day, lists));
+}
+
+}  // namespace skylapse::config

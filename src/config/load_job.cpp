@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "config/build_job.h"
+#include "config/override.h"
+#include "config/yaml_reader.h"
+
+namespace skylapse::config {
+namespace {
+
+namespace fs = std::filesystem;
+
+JobConfig build_job(const Section& root, const std::string& file, const ReadContext& context) {
+  JobConfig job;
+  job.file = file;
+  job.title = root.get<std::string>("title").value_or("");
+  job.allow_outside_paths = root.get<bool>("allow_outside_paths").value_or(false);
+  job.sites = build_sites(root, context);
+  job.time = build_time(root, job.sites, context);
+  job.air = build_air(root, context);
+  job.sky = build_sky(root);
+  job.cameras = build_cameras(root, context);
+  job.exposure = build_exposure(root, context);
+  job.color = build_color(root, context);
+  job.outputs = build_outputs(root, job, context);
+  check_frame_count(root, job, context);
+  return job;
+}
+
+/// A config is a section; an empty file is a section without keys.
+bool is_section(Node& root, ErrorList& errors) {
+  if (root.kind == Node::Kind::null) {
+    root.kind = Node::Kind::map;
+    root.place = {0, 1, 1, 1};
+  }
+  if (root.kind == Node::Kind::map) return true;
+  errors.add(root.place,
+             root.kind == Node::Kind::sequence
+                 ? "the config is a list, not a section with keys"
+                 : "the config is a single value, not a section with keys",
+             "a config begins with keys such as \"location:\" and \"time:\"");
+  return false;
+}
+
+Diagnostics unreadable(const std::string& path, std::string why, std::string hint) {
+  return {{ErrorCode::missing_input, fmt::format("{}: {}", path, why), {}, std::move(hint)}};
+}
+
+}  // namespace
+
+Result<JobConfig, Diagnostics> parse_job(const std::string& text, const std::string& name,
+                                         const std::vector<Override>& overrides) {
+  SourceSet sources;
+  ErrorList errors;
+  const int file = sources.add(name, normalised_text(text));
+  auto root = read_yaml(sources, file, errors);
+  if (!root || !is_section(*root, errors)) return errors.diagnostics(sources);
+  for (const Override& change : overrides) apply_override(*root, change, sources, errors);
+  ReadContext context{sources, errors, fs::path(name).parent_path().string()};
+  const Section section = read_section(*root, job_spec(), "", {file, 1, 1, 1}, context);
+  JobConfig job = build_job(section, name, context);
+  if (!errors.empty()) return errors.diagnostics(sources);
+  return job;
+}
+
+Result<JobConfig, Diagnostics> load_job(const std::string& path,
+                                        const std::vector<Override>& overrides) {
+  std::error_code status;
+  if (!fs::exists(path, status))
+    return unreadable(path, "there is no such file", "check the name and the current folder");
+  if (fs::is_directory(path, status))
+    return unreadable(path, "this is a folder", "name the config file itself");
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    return unreadable(path, fmt::format("cannot be opened ({})", std::strerror(errno)),
+                      "check its permissions");
+  // One byte more than allowed is enough to know that it is too long, also of an endless device.
+  std::string text(YamlLimits{}.bytes + 1, '\0');
+  file.read(text.data(), std::streamsize(text.size()));
+  if (file.bad()) return unreadable(path, "cannot be read", "check the disk it lies on");
+  text.resize(size_t(file.gcount()));
+  return parse_job(text, path, overrides);
+}
+
+}  // namespace skylapse::config

@@ -1,0 +1,100 @@
+#include "config/yaml_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "config/yaml_reader.h"
+
+namespace skylapse::config {
+namespace {
+
+/// Bytes of the UTF-8 character at `at`, 0 if it is malformed, overlong, a surrogate, or beyond
+/// U+10FFFF (RFC 3629, section 4).
+size_t utf8_length(std::string_view text, size_t at) {
+  const auto byte = [&](size_t i) {
+    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u;
+  };
+  const auto continues = [&](size_t i) { return (byte(i) & 0xC0u) == 0x80u; };
+  const unsigned b = byte(0);
+  if (b < 0x80) return 1;
+  if (b >= 0xC2 && b <= 0xDF) return continues(1) ? 2 : 0;
+  if (b >= 0xE0 && b <= 0xEF) {
+    if (!continues(1) || !continues(2)) return 0;
+    if ((b == 0xE0 && byte(1) < 0xA0) || (b == 0xED && byte(1) > 0x9F)) return 0;
+    return 3;
+  }
+  if (b >= 0xF0 && b <= 0xF4) {
+    if (!continues(1) || !continues(2) || !continues(3)) return 0;
+    if ((b == 0xF0 && byte(1) < 0x90) || (b == 0xF4 && byte(1) > 0x8F)) return 0;
+    return 4;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::string normalised_text(std::string text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  if (text.find('\r') == std::string::npos) return text;
+  std::string lines;
+  lines.reserve(text.size());
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\r')
+      lines += text[i];
+    else if (i + 1 == text.size() || text[i + 1] != '\n')
+      lines += '\n';
+  }
+  return lines;
+}
+
+ScalarExtent scalar_extent(std::string_view rest, std::string_view value) {
+  ScalarExtent extent;
+  while (extent.begin < rest.size() && (rest[extent.begin] == '&' || rest[extent.begin] == '!')) {
+    const size_t blank = rest.find_first_of(" \t", extent.begin);
+    const size_t next = rest.find_first_not_of(" \t", std::min(blank, rest.size()));
+    if (next == std::string_view::npos) break;
+    extent.begin = next;
+  }
+  rest.remove_prefix(std::min(extent.begin, rest.size()));
+  if (!rest.empty() && (rest[0] == '"' || rest[0] == '\'')) {
+    extent.quotes = true;
+    size_t end = 1;
+    while (end < rest.size() && rest[end] != rest[0])
+      end += (rest[0] == '"' && rest[end] == '\\') ? 2 : 1;
+    extent.length = std::min(end + 1, rest.size());
+    extent.verbatim = end < rest.size() && rest.substr(1, end - 1) == value;
+  } else if (!value.empty() && rest.starts_with(value)) {
+    extent.length = value.size();
+    extent.verbatim = true;
+  } else {
+    const size_t last = rest.find_last_not_of(" \t");
+    extent.length = last == std::string_view::npos ? 1 : last + 1;
+  }
+  return extent;
+}
+
+std::optional<BadByte> first_bad_byte(std::string_view text) {
+  for (size_t i = 0; i < text.size();) {
+    const auto b = static_cast<unsigned char>(text[i]);
+    if ((b < 0x20 && b != '\t' && b != '\n') || b == 0x7F)
+      return BadByte{
+          i, fmt::format("this is not a text file: it holds the control character 0x{:02x}", b)};
+    const size_t length = utf8_length(text, i);
+    if (length == 0)
+      return BadByte{i, fmt::format("this is not text in UTF-8: byte 0x{:02x} is out of place", b)};
+    i += length;
+  }
+  return std::nullopt;
+}
+
+Place place_of_byte(const SourceSet& sources, int source, size_t offset) {
+  const std::string& text = sources.text(source);
+  const auto at = text.begin() + std::min(offset, text.size());
+  const size_t line_start = text.rfind('\n', offset == 0 ? std::string::npos : offset - 1);
+  const bool first_line = offset == 0 || line_start == std::string::npos;
+  return {source, int(std::count(text.begin(), at, '\n')) + 1,
+          int(first_line ? offset : offset - line_start - 1) + 1, 1};
+}
+
+}  // namespace skylapse::config
