@@ -1,0 +1,63 @@
+#pragma once
+// The sun's disc in an image, with its energy kept: whatever the projection, the size and the
+// place within a pixel, the sum of radiance times solid angle over the pixels is the disc's flux.
+#include <functional>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "core/frames.h"
+#include "image/camera/camera.h"
+#include "image/frame_buffer.h"
+
+namespace skylapse::sky {
+
+/// A disc on the sky, cut by the horizon (elevation 0).
+struct SunDisc {
+  Direction<Enu> centre;  // as seen: refracted, if refraction is on
+  Angle radius;           // in (0, 10] deg
+  /// Radiance per output channel at a view elevation in [0, 90] deg and the limb variable
+  /// m = sqrt(1 - (sin gamma / sin radius)^2): 1 in the middle, 0 at the limb. Finite; channels
+  /// may be negative (a red sun outside the gamut).
+  std::function<glm::dvec3(Angle view_elevation, double limb_m)> radiance;
+};
+
+/// Irradiance by the disc, per channel, in its radiance unit times steradian.
+struct DiscEnergy {
+  glm::dvec3 normal_irradiance{0};      // sum of L dOmega: on a surface that faces the disc
+  glm::dvec3 horizontal_irradiance{0};  // sum of L sin(elevation) dOmega: on the ground
+};
+
+/// Irradiance by the part of the disc above the horizon, by Gauss quadrature; nothing when no part
+/// is. Within 1e-6 for a radiance that is smooth over the disc, the horizon's cut included.
+DiscEnergy disc_energy(const SunDisc& disc);
+
+/// Light of the disc in one pixel: radiance to add to what is there.
+struct PixelAddition {
+  int x = 0;
+  int y = 0;
+  glm::dvec3 radiance{0};
+};
+
+/// The disc as seen by a camera: each pixel at most once, in reading order. Empty if the disc is
+/// below the horizon or out of the picture.
+struct ProjectedDisc {
+  std::vector<PixelAddition> pixels;
+  DiscEnergy energy;  // sums over `pixels`, with pixel_solid_angle and the centres' elevations
+};
+
+/// Flux      sum of L Omega is that of the part of the disc inside the picture: to rounding if all
+///           of it is, within 0.5 % of the whole disc's flux where the frame cuts it.
+/// Ground    sum of L Omega sin(elevation) too, unless the disc spans so few pixel rows above the
+///           horizon that no sharing of the light among them has both sums; then flux is kept.
+/// Place     the centroid is kept to a small part of a pixel; no light falls on pixels that are
+///           wholly below the horizon or outside the picture.
+/// Change    continuous in the disc's direction: a moving sun does not flicker.
+/// Cost      about 0.2 ms and twice the touched pixels' evaluation, whatever the image size.
+ProjectedDisc project_sun_disc(const image::Camera& camera, const SunDisc& disc);
+
+/// Adds project_sun_disc to an image of the camera's size (asserted); returns its energy. Add the
+/// disc after the ground: the pixels of the horizon hold both.
+DiscEnergy add_sun_disc(const image::Camera& camera, const SunDisc& disc,
+                        image::FrameBuffer& image);
+
+}  // namespace skylapse::sky
