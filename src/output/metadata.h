@@ -37,9 +37,9 @@ struct FrameMetadata {
   std::string display, view;  // with PixelEncoding::display
   EnvironmentMap environment = EnvironmentMap::none;
   std::optional<double> exposure_ev100;
-  std::string model;          // "hosek-wilkie"
-  bool extrapolated = false;  // outside the model's range
-  std::string fingerprint;    // of config, code and tables
+  std::string model;                           // "hosek-wilkie"
+  bool extrapolated = false;                   // outside the model's range
+  std::string fingerprint;                     // of config, code and tables
   std::optional<SunPolicyRecord> sun_policy;   // half-float files
   std::optional<Illuminance> sun_illuminance;  // normal to the beam: what `split` leaves out
 };

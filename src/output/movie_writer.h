@@ -27,7 +27,8 @@ Result<std::string> ffmpeg_version();
 /// destroyed unfinished, nothing is visible. Not for use by several threads at once.
 class MovieWriter {
  public:
-  /// Errors: invalid_input (extension, sizes, rate, crf), missing_backend (no ffmpeg), write_failed.
+  /// Errors: invalid_input (extension, sizes, rate, crf), missing_backend (no ffmpeg),
+  /// write_failed.
   static Result<MovieWriter> open(const std::filesystem::path& path, const MovieSettings& settings);
   /// width * height * 3 bytes, row 0 at the top.
   Status add_frame(std::span<const uint8_t> rgb);
