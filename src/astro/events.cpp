@@ -79,18 +79,19 @@ void set_pair(DayEvents& day, const Sky& sky, const SampledCurve& curve, double 
         curve.value_at_begin() < level ? AbsentEvent::below : AbsentEvent::above;
 }
 
-/// Extreme of the samples at whole minutes after the day's start; sign +1: the largest.
+/// Extreme of the samples at whole minutes after the day's start, both bounds of the day included;
+/// sign +1: the largest.
 Angle minute_extreme(const Sky& sky, const SampledCurve& elevation_curve, double length_s,
                      double sign) {
   const auto& samples = elevation_curve.samples();
-  const auto inside = [&](const TimeSample& s) { return s.time_s >= 0 && s.time_s < length_s; };
+  const auto inside = [&](const TimeSample& s) { return s.time_s >= 0 && s.time_s <= length_s; };
   double near_s = 0;
   double best = -std::numeric_limits<double>::infinity();
   for (const TimeSample& s : samples)
     if (inside(s) && sign * s.value > best) best = sign * s.value, near_s = s.time_s;
   const double step_minutes = kStepSeconds / 60 + 1;
   const double first = std::max(0.0, std::floor(near_s / 60) - step_minutes);
-  const double last = std::min(std::ceil(length_s / 60) - 1, near_s / 60 + step_minutes);
+  const double last = std::min(std::floor(length_s / 60), near_s / 60 + step_minutes);
   best = -std::numeric_limits<double>::infinity();
   for (double m = first; m <= last; ++m) best = std::max(best, sign * sky.sun_elevation(60 * m));
   return sign * best * deg;

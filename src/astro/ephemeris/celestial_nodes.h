@@ -19,8 +19,8 @@ struct EarthState {
 ///
 /// Between two hours: cubic Hermite for the position, linear for the rest. The nodes stand on a
 /// fixed grid and each depends on its hour alone, so a result never depends on earlier calls.
-/// Error    against direct evaluation below 2e-5 arcsec in the pole, 1e-6 arcsec in the sun and
-///          in aberration (tested).
+/// Error    against direct evaluation below 2e-5 arcsec in the pole, 2e-6 in aberration, 1e-6 in
+///          the sun's place (tested).
 /// Memory   a direct-mapped table of the last 64 hours: two days of event search stay in it.
 class CelestialNodes {
  public:

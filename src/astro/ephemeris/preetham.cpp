@@ -17,8 +17,14 @@ struct SolarTime {
   double day_of_year;
 };
 
+/// Longitude in (-180, 180], so that +180 and -180 share one standard meridian and date.
+double wrapped(double longitude_deg) {
+  const double w = std::remainder(longitude_deg, 360.0);
+  return w == -180 ? 180 : w;
+}
+
 SolarTime solar_time(const Instant& instant, double longitude_deg) {
-  const double meridian_hours = std::round(std::remainder(longitude_deg, 360.0) / 15);
+  const double meridian_hours = std::round(longitude_deg / 15);
   const auto standard = instant.utc + std::chrono::hours{static_cast<int>(meridian_hours)};
   const sys_days date = floor<days>(standard);
   const sys_days new_year{std::chrono::year_month_day{date}.year() / 1 / 1};
@@ -26,7 +32,7 @@ SolarTime solar_time(const Instant& instant, double longitude_deg) {
   const double clock = static_cast<double>((standard - date).count()) / 3600e6;
   const double equation_of_time =
       0.170 * std::sin(4 * pi * (j - 80) / 373) - 0.129 * std::sin(2 * pi * (j - 8) / 355);
-  const double from_meridian = std::remainder(longitude_deg - 15 * meridian_hours, 360.0) / 15;
+  const double from_meridian = longitude_deg / 15 - meridian_hours;
   return {.hours = clock + equation_of_time + from_meridian, .day_of_year = j};
 }
 
@@ -34,7 +40,7 @@ SolarTime solar_time(const Instant& instant, double longitude_deg) {
 
 FormulaSun preetham_sun(const Instant& instant, const GeodeticPosition& observer,
                         AzimuthBranch branch) {
-  const SolarTime t = solar_time(instant, observer.longitude.in(deg));
+  const SolarTime t = solar_time(instant, wrapped(observer.longitude.in(deg)));
   const double declination = 0.4093 * std::sin(2 * pi * (t.day_of_year - 81) / 368);  // (3.3)
   const double sin_dec = std::sin(declination);
   const double cos_dec = std::cos(declination);

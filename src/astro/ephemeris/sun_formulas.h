@@ -33,7 +33,7 @@ enum class AzimuthBranch {
 /// Changes signs: the longitude is positive to the east; the denominator of (3.2) is
 ///         -(cos l sin d + sin l cos d cos(pi t / 12)), the sun's component to the south (printed
 ///         with the first sign lost).
-/// Error   up to 1.2 deg with the full circle. With the half circle the azimuth is off by 180 deg
+/// Error   up to 1.3 deg with the full circle. With the half circle the azimuth is off by 180 deg
 ///         whenever the sun stands in the northern half of the sky: the published flaw, kept.
 FormulaSun preetham_sun(const Instant& instant, const GeodeticPosition& observer,
                         AzimuthBranch branch);

@@ -134,12 +134,15 @@ Result<Instant> parse_instant(std::string_view text) {
 
 std::string format_utc(const Instant& instant, int decimals) {
   assert(decimals >= 0 && decimals <= 6);
-  Instant shown = instant;
-  const auto whole = round_to_decimals(instant.utc, decimals);
-  if (instant.leap_second && floor<seconds>(whole) > floor<seconds>(instant.utc))
+  Instant shown{.utc = round_to_decimals(instant.utc, decimals),
+                .leap_second = instant.leap_second};
+  const bool next_second = floor<seconds>(shown.utc) > floor<seconds>(instant.utc);
+  if (next_second && instant.leap_second) {
     shown = {.utc = floor<days>(instant.utc)};  // 23:59:60.9999 rounds to 00:00:00
-  else
-    shown.utc = whole;
+  } else if (next_second && shown.utc == floor<days>(shown.utc)) {
+    // 23:59:59.9999 rounds to 23:59:60 where there is one
+    shown.leap_second = day_ends_with_leap_second(floor<days>(instant.utc));
+  }
   return format_clock(shown.utc.time_since_epoch(), shown.leap_second, decimals) + "Z";
 }
 
