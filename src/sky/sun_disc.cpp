@@ -79,8 +79,9 @@ void set_horizontal(std::vector<LitPixel>& pixels, const glm::dvec3& target) {
     variance += p.light.weight * offset * offset;
     farthest = std::max(farthest, std::abs(offset));
   }
-  if (variance == 0) return;
-  constexpr double kMostTilt = 0.5;
+  // In one row of pixels offsets are rounding, and the tilt would be a change of flux.
+  constexpr double kSameElevation = 1e-9, kMostTilt = 0.5;
+  if (farthest < kSameElevation) return;
   const glm::dvec3 limit = kMostTilt * glm::abs(flux) / weight / farthest;
   const glm::dvec3 tilt = glm::clamp((target - horizontal) / variance, -limit, limit);
   for (LitPixel& p : pixels) p.light.flux += tilt * (p.light.weight * (p.sine - mean_sine));

@@ -29,26 +29,27 @@ class DiscSampler {
 
   struct Sample {
     double weight = 0;  // covered solid angle
+    double above = 0;   // share of the cell above the horizon
     glm::dvec3 flux{0};
     double sine = 0;  // of the elevation of the covered part's middle
   };
 
-  [[nodiscard]] Sample operator()(const Direction<Enu>& direction, double solid_angle) const {
+  [[nodiscard]] Sample operator()(const Direction<Enu>& direction, SolidAngle cell) const {
     const double chord = glm::length(direction.vec() - disc_.centre.vec());
-    const double side = std::sqrt(solid_angle);
+    const double side = std::sqrt(cell.in(sr));
     const double gamma = 2 * std::asin(std::min(1.0, 0.5 * chord));
     const double in_disc = std::clamp((radius_ - gamma) / side + 0.5, 0.0, 1.0);
     if (in_disc == 0 || side == 0) return {};
     const double el = elevation(direction).in(rad);
-    const double above = std::clamp(el / side + 0.5, 0.0, 1.0);
+    const double above = image::horizon_coverage(el * rad, cell);
     if (above == 0) return {};
     const double middle_el = above < 1 ? 0.5 * (el + 0.5 * side) : el;
     const double inner = std::max(0.0, gamma - 0.5 * side);
     const double middle_gamma = in_disc < 1 ? 0.5 * (inner + radius_) : gamma;
     const double q = std::sin(std::min(middle_gamma, radius_)) / sine_radius_;
     const double limb = std::sqrt(std::max(0.0, 1 - q * q));
-    const double weight = solid_angle * in_disc * above;
-    return {weight, weight * disc_.radiance(middle_el * rad, limb), std::sin(middle_el)};
+    const double weight = cell.in(sr)*in_disc * above;
+    return {weight, above, weight * disc_.radiance(middle_el * rad, limb), std::sin(middle_el)};
   }
 
  private:
@@ -87,7 +88,6 @@ void splat_chart(const image::Chart& chart, const SunDisc& disc, const LatticePl
   const DiscSampler sample_disc(disc);
   const auto [columns, rows] = plan.grid;
   const double pixels_per_cell = 1.0 / (double(columns) * rows);
-  const double side_px = std::sqrt(pixels_per_cell);
   const auto centre = image::to_camera_frame(chart.camera, disc.centre);
   const Angle reach = disc.radius + 1.5 * plan.cell_extent_rad * rad;
   const auto footprint = image::footprint(chart, centre, reach, plan.grid);
@@ -97,11 +97,13 @@ void splat_chart(const image::Chart& chart, const SunDisc& disc, const LatticePl
       const image::PixelPosition p{(double(i) + 0.5) / columns, (double(span.row) + 0.5) / rows};
       const auto at = image::chart_sample(chart, p);
       if (!at) continue;
-      const auto sample = sample_disc(image::to_enu(chart.camera, at->direction),
-                                      at->sr_per_pixel * pixels_per_cell);
+      const SolidAngle cell = at->sr_per_pixel * pixels_per_cell * sr;
+      const auto sample = sample_disc(image::to_enu(chart.camera, at->direction), cell);
       if (sample.weight == 0) continue;
       count(sums.whole, sample, 1);
-      const double part = image::share_in_picture(chart, p, side_px);
+      // Where the rim of the picture is the horizon, the cell is cut once, not twice.
+      const double share = image::share_in_picture(chart, p, *at, cell);
+      const double part = std::min(1.0, share / sample.above);
       if (part == 0) continue;
       count(sums.seen, sample, part);
       plane.add({p, part * sample.flux, part * sample.weight});

@@ -28,7 +28,7 @@ double SplatPlane::share(int x, int y) const {
 
 SplatPlane::Pixel& SplatPlane::pixel_at(int x, int y) {
   const uint64_t key = key_of(x >> kTileBits, y >> kTileBits);
-  if (key != last_key_) {
+  if (last_tile_ == nullptr || key != last_key_) {
     auto& tile = tiles_[key];
     if (!tile) tile = std::make_unique<Tile>();
     last_tile_ = tile.get();

@@ -60,7 +60,7 @@ class SplatPlane {
   double tent_;
   bool horizon_;
   std::unordered_map<uint64_t, std::unique_ptr<Tile>> tiles_;
-  uint64_t last_key_ = ~uint64_t{0};
+  uint64_t last_key_ = 0;
   Tile* last_tile_ = nullptr;
 };
 

@@ -130,6 +130,12 @@ std::optional<PixelPosition> fisheye_position(const Camera& camera,
                        cy - radius * r * (direction.y() / sin_theta)};
 }
 
+double fisheye_sr_per_pixel(const Camera& camera, PixelPosition position) {
+  const double r = fisheye_radius_at(camera, position);
+  const double radius = fisheye_circle(camera).radius_px;
+  return density(camera, r * r) / (radius * radius);
+}
+
 double fisheye_solid_angle_sr(const Camera& camera, int x, int y) {
   const auto [cx, cy, radius] = fisheye_circle(camera);
   const double side = 1 / radius;

@@ -30,6 +30,10 @@ std::optional<PixelPosition> fisheye_position(const Camera& camera,
 /// Solid angle of the whole pixel square, the picture's edge left aside.
 double fisheye_solid_angle_sr(const Camera& camera, int x, int y);
 
+/// Solid angle per area of the image at a position, a pixel's area being 1; 0 where the formula
+/// has left the sphere.
+double fisheye_sr_per_pixel(const Camera& camera, PixelPosition position);
+
 /// Distance of a position from the image centre, in radii of the image circle.
 double fisheye_radius_at(const Camera& camera, PixelPosition position);
 

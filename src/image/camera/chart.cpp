@@ -1,0 +1,113 @@
+#include "image/camera/chart.h"
+
+#include <algorithm>
+
+#include "image/camera/fisheye.h"
+#include "image/camera/lat_long.h"
+#include "image/camera/perspective.h"
+
+namespace skylapse::image {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+bool is_fisheye(const Camera& camera) {
+  return camera.projection == Projection::fisheye_equidistant ||
+         camera.projection == Projection::fisheye_equisolid ||
+         camera.projection == Projection::fisheye_stereographic;
+}
+
+/// Of the plane at `distance_px`, where the ray makes the angle with cosine `c` with the axis.
+double plane_density(double distance_px, double c) {
+  return c * c * c / (distance_px * distance_px);
+}
+
+PixelExtent fisheye_extent(const Camera& camera, const Direction<CameraFrame>& centre) {
+  const double half_pixel = 0.5 / fisheye_circle(camera).radius_px;
+  const Angle theta = separation(centre, Direction<CameraFrame>());
+  const Angle edge = std::min(theta, 0.5 * camera.field_of_view);
+  const double r = std::max(half_pixel, fisheye_r(camera, edge) - half_pixel);
+  const Angle inner = fisheye_theta(camera, r - half_pixel).value_or(Angle{});
+  const Angle outer = fisheye_theta(camera, r + half_pixel).value_or(kPi * rad);
+  const Angle radial = outer - inner;
+  const Angle tangential = (sin(edge) * 2 * half_pixel / r) * rad;
+  const Angle extent = std::max(radial, tangential);
+  return {extent, extent};
+}
+
+PixelExtent lat_long_extent(const Camera& camera, const Direction<CameraFrame>& centre,
+                            Angle radius) {
+  // The widest part of the disc is the one farthest from the pole.
+  const double from_equator = std::abs(std::atan2(centre.y(), std::hypot(centre.x(), centre.z())));
+  const double lowest = std::max(0.0, from_equator - radius.in(rad));
+  return {2 * kPi / camera.width * std::cos(lowest) * rad, kPi / camera.height * rad};
+}
+
+}  // namespace
+
+std::vector<Chart> charts(const Camera& camera) {
+  if (camera.projection != Projection::cube) return {{camera, {}}};
+  std::vector<Chart> faces;
+  for (const CubeFace face : kCubeFaces) faces.push_back({camera, face});
+  return faces;
+}
+
+std::optional<ChartSample> chart_sample(const Chart& chart, PixelPosition position) {
+  const Camera& camera = chart.camera;
+  if (camera.projection == Projection::perspective) {
+    const auto d = perspective_ray(camera, position);
+    return ChartSample{d, plane_density(perspective_focal_length_px(camera), d.z())};
+  }
+  if (camera.projection == Projection::cube) {
+    const auto d = cube_ray(camera, *chart.face, position);
+    const auto axes = cube_face_axes(camera.cube_layout, *chart.face);
+    return ChartSample{
+        d, plane_density(0.5 * cube_face_size(camera), glm::dot(axes.forward, d.vec()))};
+  }
+  if (camera.projection == Projection::lat_long) {
+    const double row = kPi / camera.height, column = 2 * kPi / camera.width;
+    return ChartSample{lat_long_ray(camera, position),
+                       std::abs(std::sin(position.y * row)) * row * column};
+  }
+  const auto d = fisheye_ray(camera, position);
+  if (!d) return {};
+  return ChartSample{*d, fisheye_sr_per_pixel(camera, position)};
+}
+
+double share_in_picture(const Chart& chart, PixelPosition position, const ChartSample& sample,
+                        SolidAngle cell) {
+  const Camera& camera = chart.camera;
+  if (is_fisheye(camera)) {
+    const Angle half = 0.5 * camera.field_of_view;
+    if (half >= kPi * rad) return 1;  // the whole sphere: nothing lies outside
+    return horizon_coverage(half - separation(sample.direction, Direction<CameraFrame>()), cell);
+  }
+  if (camera.projection == Projection::cube)
+    return cube_face_at(camera, position) == chart.face ? 1 : 0;
+  if (camera.projection == Projection::lat_long)
+    return position.y >= 0 && position.y <= camera.height ? 1 : 0;
+  return position.x >= 0 && position.x <= camera.width && position.y >= 0 &&
+                 position.y <= camera.height
+             ? 1
+             : 0;
+}
+
+bool fills_pixel(const Chart& chart, int x, int y) {
+  const Camera& camera = chart.camera;
+  if (camera.projection == Projection::lat_long || camera.projection == Projection::cube)
+    return true;
+  return direction_at(camera, {x + 0.5, y + 0.5}).has_value();
+}
+
+PixelExtent pixel_extent(const Camera& camera, const Direction<CameraFrame>& centre, Angle radius) {
+  if (camera.projection == Projection::lat_long) return lat_long_extent(camera, centre, radius);
+  if (is_fisheye(camera)) return fisheye_extent(camera, centre);
+  const bool cube = camera.projection == Projection::cube;
+  const glm::dvec3 a = glm::abs(centre.vec());
+  const double cosine = cube ? std::max({a.x, a.y, a.z}) : std::max(0.0, centre.z());
+  const double focal_px = cube ? 0.5 * cube_face_size(camera) : perspective_focal_length_px(camera);
+  const Angle extent = cosine / focal_px * rad;  // across the radius; along it it is smaller
+  return {extent, extent};
+}
+
+}  // namespace skylapse::image
