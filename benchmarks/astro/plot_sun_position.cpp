@@ -71,6 +71,27 @@ std::string polyline(const Panel& panel, const Curve& curve, const Line& style, 
       path, style.colour, style.width, style.dash);
 }
 
+/// Grey bands where the sun's centre is below the sunrise level.
+std::string night(const Panel& p, const Ephemeris& judge, const GeodeticPosition& place,
+                  const Instant& begin) {
+  const auto down = [&](int m) {
+    return elevation(judge.sun_state(begin + m * 1.0 * minute, place, {}).sun_true) <
+           -50.0 * arcmin;
+  };
+  std::string svg;
+  for (int m = 0; m < 1440;) {
+    const int from = m;
+    while (m < 1440 && down(m)) ++m;
+    if (m > from)
+      svg += fmt::format(
+          "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+          "fill=\"#eef0f3\"/>\n",
+          p.x(from), p.top, p.x(m) - p.x(from), p.height);
+    while (m < 1440 && !down(m)) ++m;
+  }
+  return svg;
+}
+
 std::string frame(const Panel& p, const std::string& title,
                   const std::vector<std::pair<double, std::string>>& ticks) {
   std::string svg;
@@ -107,7 +128,8 @@ int main(int argc, char** argv) {
 
   const Panel azimuths{70, 50, 780, 300, 1440, 0, 360};
   const Panel errors{70, 420, 780, 230, 1440, -5.5, 2.6};  // log10 of degrees
-  std::string body;
+  const Ephemeris judge;
+  std::string body = night(azimuths, judge, place, begin) + night(errors, judge, place, begin);
   body += frame(azimuths, "azimuth, degrees from north",
                 {{0, "0 N"}, {90, "90 E"}, {180, "180 S"}, {270, "270 W"}, {360, "360 N"}});
   body += frame(errors, "angle from the erfa path, degrees",
@@ -119,7 +141,6 @@ int main(int argc, char** argv) {
                  {0, "1"},
                  {1, "10"},
                  {2, "100"}});
-  const Ephemeris judge;
   double key_x = azimuths.left;
   for (const Line& line : kLines) {
     const Ephemeris ephemeris({.algorithm = line.algorithm});
@@ -147,8 +168,10 @@ int main(int argc, char** argv) {
          "viewBox=\"0 0 880 700\" font-family=\"sans-serif\" font-size=\"13\">\n"
          "<rect width=\"880\" height=\"700\" fill=\"white\"/>\n"
       << body
-      << text(460, 690,
-              fmt::format("mean solar time at {:.4f} N {:.4f} E on {}", latitude, longitude, date))
+      << text(
+             460, 690,
+             fmt::format("mean solar time at {:.4f} N {:.4f} E on {} (grey: sun below the horizon)",
+                         latitude, longitude, date))
       << "</svg>\n";
   out.close();
   if (!out) {

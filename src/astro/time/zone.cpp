@@ -61,6 +61,17 @@ std::optional<std::string> probable_name(const std::string& word) {
   return names[std::find(cities.begin(), cities.end(), *city) - cities.begin()];
 }
 
+/// The error of a machine without tzdata; nothing if there are zones.
+std::optional<Error> missing_zone_data() {
+  try {
+    if (!date::get_tzdb().zones.empty()) return std::nullopt;
+  } catch (const std::exception&) {  // there is no folder at all
+  }
+  return Error{.code = ErrorCode::missing_backend,
+               .message = fmt::format("no time-zone data in {}", zone_folder().string()),
+               .hint = "install the package tzdata, or give the zone as an offset (+02:00)"};
+}
+
 Error unknown_zone(const std::string& name) {
   const auto meant = probable_name(name);
   return {.code = ErrorCode::invalid_input,
@@ -135,20 +146,17 @@ Result<Zone> Zone::find(const std::string& name) {
     rules.fixed.abbreviation = *offset == 0s ? "UTC" : format_offset(*offset);
     return Zone(std::make_shared<const Rules>(std::move(rules)));
   }
-  try {
-    date::get_tzdb();
-  } catch (const std::exception& problem) {
-    return Error{.code = ErrorCode::missing_backend,
-                 .message = fmt::format("no time-zone data in {} ({})", zone_folder().string(),
-                                        problem.what()),
-                 .hint = "install the package tzdata, or give the zone as an offset (+02:00)"};
-  }
+  if (const auto missing = missing_zone_data()) return *missing;
   try {
     rules.table = date::locate_zone(name);
-    rules.table->get_info(sys_seconds{});  // reads the file now, not inside some later call
   } catch (const std::exception&) {
     return unknown_zone(name);
   }
+  if (!is_zone_file(name))
+    return Error{
+        .code = ErrorCode::missing_backend,
+        .message = fmt::format("{} is not a time-zone file", (zone_folder() / name).string()),
+        .hint = "reinstall the package tzdata"};
   rules.footer = read_zone_footer(name);
   return Zone(std::make_shared<const Rules>(std::move(rules)));
 }

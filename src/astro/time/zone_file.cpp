@@ -11,6 +11,13 @@ std::filesystem::path zone_folder() {
   return std::filesystem::is_directory(usual / "uclibc", none) ? usual / "uclibc" : usual;
 }
 
+bool is_zone_file(const std::string& name) {
+  constexpr size_t kHeaderSize = 44;
+  std::ifstream file(zone_folder() / name, std::ios::binary);
+  std::string header(kHeaderSize, '\0');
+  return file.read(header.data(), kHeaderSize) && header.starts_with("TZif");
+}
+
 std::optional<PosixZone> read_zone_footer(const std::string& name) {
   std::ifstream file(zone_folder() / name, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
