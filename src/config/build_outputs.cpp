@@ -183,14 +183,16 @@ class OutputReader {
       out.compression = *word;
   }
 
-  [[nodiscard]] bool job_has_several_times() const {
-    const auto* list = std::get_if<ExplicitTimes>(&job_.time.sampling);
-    const auto* count = std::get_if<FrameCount>(&job_.time.sampling);
-    if ((list != nullptr && list->times.size() > 1) || (count != nullptr && count->count > 1))
-      return true;
-    if (list == nullptr && count == nullptr) return true;
-    return job_.time.dates.size() > 1 ||
-           (job_.time.dates.size() == 1 && job_.time.dates[0].first != job_.time.dates[0].last);
+  [[nodiscard]] bool day_has_several_times() const {
+    if (const auto* list = std::get_if<ExplicitTimes>(&job_.time.sampling))
+      return list->times.size() > 1;
+    if (const auto* count = std::get_if<FrameCount>(&job_.time.sampling)) return count->count > 1;
+    return true;
+  }
+
+  [[nodiscard]] bool job_has_several_days() const {
+    const auto& dates = job_.time.dates;
+    return dates.size() > 1 || (dates.size() == 1 && dates[0].first != dates[0].last);
   }
 
   void check_image_names() {
@@ -200,9 +202,13 @@ class OutputReader {
       refuse_path("six faces would be written to one file", "add the token {face} to the name");
     if (!faces && has_token("face"))
       refuse_path("no camera has faces of its own", "{face} belongs to \"layout: faces\"");
-    if (job_has_several_times() && !has_token("#") && !has_token("time") && !has_token("date"))
-      refuse_path("all frames would be written to one file",
+    if (has_token("#")) return;
+    if (day_has_several_times() && !has_token("time"))
+      refuse_path("all frames of a day would be written to one file",
                   "add #### (the frame number) or {time} to the name");
+    else if (job_has_several_days() && !has_token("date"))
+      refuse_path("the frames of all days would be written to one file",
+                  "add #### (the frame number) or {date} to the name");
   }
 
   void check_movie_names() {

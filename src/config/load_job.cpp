@@ -35,7 +35,7 @@ JobConfig build_job(const Section& root, const std::string& file, const ReadCont
 bool is_section(Node& root, ErrorList& errors) {
   if (root.kind == Node::Kind::null) {
     root.kind = Node::Kind::map;
-    root.place = {0, 1, 1, 1};
+    root.place = {0, 1, 1, 0};
   }
   if (root.kind == Node::Kind::map) return true;
   errors.add(root.place,
@@ -61,7 +61,7 @@ Result<JobConfig, Diagnostics> parse_job(const std::string& text, const std::str
   if (!root || !is_section(*root, errors)) return errors.diagnostics(sources);
   for (const Override& change : overrides) apply_override(*root, change, sources, errors);
   ReadContext context{sources, errors, fs::path(name).parent_path().string()};
-  const Section section = read_section(*root, job_spec(), "", {file, 1, 1, 1}, context);
+  const Section section = read_section(*root, job_spec(), "", {file, 1, 1, 0}, context);
   JobConfig job = build_job(section, name, context);
   if (!errors.empty()) return errors.diagnostics(sources);
   return job;

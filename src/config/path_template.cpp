@@ -63,7 +63,7 @@ std::optional<Problem> path_template_problem(std::string_view path) {
     if (c < 0x20 || c == 0x7F) return Problem{"the name holds a control character", {}, i, 1};
     if (c == '\\') return Problem{"the name holds a backslash", "folders are divided by /", i, 1};
     if (c == '/') name_begin = i + 1;
-    if (i - name_begin > kLongestName)
+    if (i >= name_begin + kLongestName)
       return Problem{"the name of a file or folder is too long",
                      fmt::format("allowed: at most {} bytes", kLongestName)};
     if (c == '}') return Problem{"a } was not opened", token_list(), i, 1};

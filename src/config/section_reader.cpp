@@ -123,11 +123,17 @@ struct FieldReader {
   const SectionSpec* choose_section(const Node& node, const std::string& item_path) {
     for (const SectionSpec* spec : key.sections)
       if (key.sections.size() == 1 || find_key(node, spec->keys[0].name) != nullptr) return spec;
-    std::vector<std::string_view> first_keys;
-    for (const SectionSpec* spec : key.sections) first_keys.push_back(spec->keys[0].name);
-    context.errors.add(
-        node.place, fmt::format("{} lacks one of {}", item_path, fmt::join(first_keys, ", ")),
-        fmt::format("such as \"{}: {}\"", first_keys[0], key.sections[0]->keys[0].example));
+    std::vector<std::string> first_keys;
+    for (const SectionSpec* spec : key.sections) first_keys.emplace_back(spec->keys[0].name);
+    std::string hint =
+        fmt::format("such as \"{}: {}\"", first_keys[0], key.sections[0]->keys[0].example);
+    for (const MapEntry& entry : node.entries)
+      if (const auto nearest =
+              entry.key.size() <= 40 ? nearest_name(entry.key, first_keys) : std::nullopt)
+        hint = fmt::format("did you mean {} instead of {}?", *nearest, entry.key);
+    context.errors.add(node.place,
+                       fmt::format("{} lacks one of {}", item_path, fmt::join(first_keys, ", ")),
+                       hint);
     return nullptr;
   }
 

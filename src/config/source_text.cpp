@@ -10,6 +10,14 @@ namespace {
 
 constexpr size_t kLongestShownLine = 240;
 
+bool is_control(char c) { return (c >= 0 && c < 0x20 && c != '\t') || c == 0x7F; }
+
+/// Values are quoted in messages: what would steer a terminal is replaced.
+std::string printable(std::string text) {
+  std::replace_if(text.begin(), text.end(), is_control, '?');
+  return text;
+}
+
 /// UTF-8 characters in `text`: bytes that do not continue a character.
 int characters_in(std::string_view text) {
   return int(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
@@ -50,9 +58,10 @@ SourceSpan SourceSet::span(const Place& place) const {
                   characters_in(text.substr(0, begin)) + 1,
                   std::max(1, characters_in(text.substr(begin, place.length))),
                   {}};
-  if (text.size() <= kLongestShownLine) {
+  const bool shown = place.length > 0 && std::none_of(text.begin(), text.end(), is_control);
+  if (shown && text.size() <= kLongestShownLine) {
     span.source_line = text;
-  } else if (begin + 20 < kLongestShownLine) {
+  } else if (shown && begin + 20 < kLongestShownLine) {
     span.source_line = std::string(text.substr(0, kLongestShownLine)) + " ...";
     span.length = std::min(span.length, int(kLongestShownLine - begin));
   }
@@ -63,7 +72,7 @@ void ErrorList::add(const Place& place, std::string message, std::string hint, E
   if (full())
     ++left_out_;
   else
-    kept_.push_back({place, code, std::move(message), std::move(hint)});
+    kept_.push_back({place, code, printable(std::move(message)), printable(std::move(hint))});
 }
 
 Diagnostics ErrorList::diagnostics(const SourceSet& sources) const {

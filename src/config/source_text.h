@@ -13,7 +13,7 @@ struct Place {
   int source = 0;  // index of the text in its SourceSet
   int line = 0;    // from 1; 0: no place known
   int column = 1;  // from 1, in bytes
-  int length = 1;  // in bytes, at least 1
+  int length = 1;  // in bytes; 0: the line itself says nothing about the error
 };
 
 /// The texts of a job. The first is the file, the others are overrides.
@@ -26,8 +26,8 @@ class SourceSet {
   [[nodiscard]] const std::string& name(int source) const { return sources_[source].name; }
   /// Line `line` (from 1) without its end; empty beyond the text.
   [[nodiscard]] std::string_view line(int source, int line) const;
-  /// The place as users see it: columns count characters, not bytes, and very long source lines
-  /// are cut, so that a message stays readable.
+  /// The place as users see it: columns count characters, not bytes; very long source lines are
+  /// cut and those with control characters left out, so that a message stays readable.
   [[nodiscard]] SourceSpan span(const Place& place) const;
 
  private:

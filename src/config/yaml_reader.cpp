@@ -73,6 +73,9 @@ class TreeBuilder : public YAML::EventHandler {
     if (value.size() > limits_.scalar_bytes)
       abandon(place, fmt::format("this text is {} characters long", value.size()),
               fmt::format("allowed: at most {}", limits_.scalar_bytes));
+    // yaml-cpp accepts some quotes that never close, and values here are one line anyway.
+    if (!extent.closed)
+      abandon(place, "the quote is not closed on its line", "text in quotes is one line");
     refuse_tag(tag, start);
     if (expects_key()) {
       add_key(value, place);
@@ -220,7 +223,9 @@ class TreeBuilder : public YAML::EventHandler {
   size_t nodes_ = 0, text_bytes_ = 0;
 };
 
-std::string syntax_hint(const SourceSet& sources, const Place& place) {
+std::string syntax_hint(const SourceSet& sources, const Place& place, const std::string& message) {
+  if (message.find("flow not found") != std::string::npos)
+    return "a [ or { before this is not closed, or a value holds one: put such text in quotes";
   const std::string_view line = sources.line(place.source, place.line);
   const size_t first = line.find_first_not_of(" \t");
   if (line.substr(0, first == std::string_view::npos ? line.size() : first).find('\t') !=
@@ -275,7 +280,7 @@ std::optional<Node> read_yaml(const SourceSet& sources, int source, ErrorList& e
     return std::nullopt;
   } catch (const YAML::Exception& e) {
     Place place{source, std::max(e.mark.line, 0) + 1, std::max(e.mark.column, 0) + 1, 1};
-    errors.add(place, "this is not valid YAML: " + e.msg, syntax_hint(sources, place));
+    errors.add(place, "this is not valid YAML: " + e.msg, syntax_hint(sources, place, e.msg));
     return std::nullopt;
   }
 }

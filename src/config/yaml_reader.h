@@ -9,7 +9,7 @@ namespace skylapse::config {
 
 /// Bounds on what a text may expand to. A year of hand-written times fits; alias bombs do not.
 struct YamlLimits {
-  size_t bytes = 1 << 20;       // of the text
+  size_t bytes = 1 << 18;       // of the text
   int depth = 24;               // of nesting
   size_t nodes = 100'000;       // aliases expanded
   size_t text_bytes = 1 << 22;  // of all scalars together, aliases expanded

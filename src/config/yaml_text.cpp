@@ -32,6 +32,20 @@ size_t utf8_length(std::string_view text, size_t at) {
   return 0;
 }
 
+/// Where the quote that `rest` begins with is closed; its size if it is not.
+size_t closing_quote(std::string_view rest) {
+  const char quote = rest[0];
+  size_t at = 1;
+  while (at < rest.size()) {
+    const bool escape = quote == '"'
+                            ? rest[at] == '\\'
+                            : rest[at] == quote && at + 1 < rest.size() && rest[at + 1] == quote;
+    if (!escape && rest[at] == quote) return at;
+    at += escape ? 2 : 1;
+  }
+  return rest.size();
+}
+
 }  // namespace
 
 std::string normalised_text(std::string text) {
@@ -59,11 +73,10 @@ ScalarExtent scalar_extent(std::string_view rest, std::string_view value) {
   rest.remove_prefix(std::min(extent.begin, rest.size()));
   if (!rest.empty() && (rest[0] == '"' || rest[0] == '\'')) {
     extent.quotes = true;
-    size_t end = 1;
-    while (end < rest.size() && rest[end] != rest[0])
-      end += (rest[0] == '"' && rest[end] == '\\') ? 2 : 1;
+    const size_t end = closing_quote(rest);
+    extent.closed = end < rest.size();
     extent.length = std::min(end + 1, rest.size());
-    extent.verbatim = end < rest.size() && rest.substr(1, end - 1) == value;
+    extent.verbatim = extent.closed && rest.substr(1, end - 1) == value;
   } else if (!value.empty() && rest.starts_with(value)) {
     extent.length = value.size();
     extent.verbatim = true;

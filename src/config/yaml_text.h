@@ -13,6 +13,7 @@ struct ScalarExtent {
   size_t begin = 0;       // bytes of anchor and tag before it
   size_t length = 1;      // quotes included; of its first line if there are several
   bool quotes = false;    // written in quotes
+  bool closed = true;     // and the quotes end on the line
   bool verbatim = false;  // the value stands there as it is: no escapes, no folded lines
 };
 
