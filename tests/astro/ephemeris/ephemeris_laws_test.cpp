@@ -51,12 +51,13 @@ void expect_continuous_days(SunAlgorithm algorithm) {
   for (size_t i = 0; i < places().size(); ++i) {
     const GeodeticPosition& p = places()[i];
     const Instant start = utc(starts[i % 3]);
+    const std::string name = where(p, start);
     SkyState before = ephemeris.sun_state(start, p, {});
     for (int s = 1; s <= 86400; ++s) {
       const Instant t{.utc = start.utc + std::chrono::seconds{s}};
       const SkyState now = ephemeris.sun_state(t, p, {});
-      truly.see(separation(before.sun_true, now.sun_true).in(arcsec), "");
-      apparent.see(separation(before.sun_apparent, now.sun_apparent).in(arcsec), "");
+      truly.see(separation(before.sun_true, now.sun_true).in(arcsec), name);
+      apparent.see(separation(before.sun_apparent, now.sun_apparent).in(arcsec), name);
       before = now;
     }
   }

@@ -72,9 +72,11 @@ TEST(EnuFrame, TurnsOfLongitudeChangeNothing) {
 TEST(EnuFrame, NorthAtThePolesIsTheLimitAlongTheMeridian) {
   for (const double lon : {0.0, 37.5, 90.0, -120.0, 180.0}) {
     const double a = lon * M_PI / 180;
-    EXPECT_NEAR(glm::length(frame_at(90, lon).north - glm::dvec3(-std::cos(a), -std::sin(a), 0)), 0, 1e-15)
+    EXPECT_NEAR(glm::length(frame_at(90, lon).north - glm::dvec3(-std::cos(a), -std::sin(a), 0)), 0,
+                1e-15)
         << lon;
-    EXPECT_NEAR(glm::length(frame_at(-90, lon).north - glm::dvec3(std::cos(a), std::sin(a), 0)), 0, 1e-15)
+    EXPECT_NEAR(glm::length(frame_at(-90, lon).north - glm::dvec3(std::cos(a), std::sin(a), 0)), 0,
+                1e-15)
         << lon;
     EXPECT_NEAR(glm::length(frame_at(90, lon).north - frame_at(89.9999999, lon).north), 0, 2e-9)
         << lon;
