@@ -1,0 +1,58 @@
+// Every example of configs/ renders, small.
+#include "pipeline/job_fixture.h"
+
+using namespace skylapse;
+using namespace skylapse::pipeline;
+using namespace skylapse::pipeline::testing;
+
+namespace {
+
+std::vector<std::filesystem::path> examples() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(SKYLAPSE_SOURCE_DIR) / "configs"))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Shrinks the cameras to about 64 pixels, shapes kept.
+void shrink(plan::Plan& plan) {
+  for (auto& camera : plan.job.cameras) {
+    image::Camera& c = camera.camera;
+    const int divisor = std::max(1, std::max(c.width, c.height) / 96);
+    if (c.projection == image::Projection::cube) {
+      const bool vertical = c.cube_layout == image::CubeLayout::vertical_strip;
+      c.width = vertical ? 16 : 96, c.height = vertical ? 96 : 16;
+      if (c.cube_layout == image::CubeLayout::cross) c.width = 64, c.height = 48;
+    } else {
+      c.width = std::max(2, c.width / divisor), c.height = std::max(2, c.height / divisor);
+    }
+  }
+}
+
+class Examples : public ::testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(Examples, RendersSmallFromFirstToLastFrame) {
+  auto job = config::load_job(GetParam().string());
+  if (!job)
+    for (const auto& error : job.error()) ADD_FAILURE() << format_error(error);
+  ASSERT_TRUE(job.ok());
+  auto plan = plan::make_plan(*std::move(job));
+  if (!plan)
+    for (const auto& error : plan.error()) ADD_FAILURE() << format_error(error);
+  ASSERT_TRUE(plan.ok());
+  shrink(*plan);
+  const TemporaryFolder folder;
+  const auto summary = run_job(*plan, options_for(*plan, folder.path()));
+  ASSERT_TRUE(summary.ok()) << format_error(summary.error());
+  EXPECT_EQ(summary->rendered, long(plan->frames.size()));
+  EXPECT_TRUE(summary->complete);
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, Examples, ::testing::ValuesIn(examples()),
+                         [](const auto& info) { return info.param.stem().string(); });
+
+TEST(ExampleConfigs, AreAtLeastTheSevenThatTheReadmeNames) { EXPECT_GE(examples().size(), 7u); }
+
+}  // namespace

@@ -1,0 +1,158 @@
+#include "pipeline/run_job.h"
+
+#include <nlohmann/json.hpp>
+
+#include "output/movie_writer.h"
+#include "pipeline/job_fixture.h"
+
+using namespace skylapse;
+using namespace skylapse::pipeline;
+using namespace skylapse::pipeline::testing;
+
+namespace {
+
+const std::string kOutputs =
+    "{image: \"p.####.png\", view: ACES SDR}, {image: \"l/p.####.exr\", type: half}, "
+    "{movie: p.mp4, view: ACES SDR}";
+
+nlohmann::json manifest_of(const std::filesystem::path& folder) {
+  std::ifstream file(folder / "manifest.json");
+  return nlohmann::json::parse(file);
+}
+
+TEST(RunJob, WritesEveryFileItPromisesAndAManifestOfThem) {
+  const auto plan = plan_of_text(small_scene(kOutputs));
+  const TemporaryFolder folder;
+  const auto summary = run_job(plan, options_for(plan, folder.path()));
+  ASSERT_TRUE(summary.ok()) << format_error(summary.error());
+  EXPECT_EQ(summary->rendered, 6);
+  EXPECT_TRUE(summary->complete);
+  const auto files = hashes(folder.path());
+  EXPECT_EQ(files.size(), 6u + 6u + 1u);
+  const auto manifest = manifest_of(folder.path());
+  EXPECT_EQ(manifest["frames_complete"], 6);
+  EXPECT_TRUE(manifest["complete"]);
+  for (const auto& frame : manifest["frames"])
+    for (const auto& file : frame["files"])
+      EXPECT_EQ(file["sha256"], files.at(file["path"])) << file["path"];
+  EXPECT_EQ(manifest["movies"].size(), 1u);
+}
+
+TEST(RunJob, MarksFramesBelowTheHorizonAsExtrapolated) {
+  const auto plan = plan_of_text(small_scene(kOutputs));
+  const TemporaryFolder folder;
+  ASSERT_TRUE(run_job(plan, options_for(plan, folder.path())).ok());
+  const auto frames = manifest_of(folder.path())["frames"];
+  EXPECT_TRUE(frames.front()["extrapolated"]);
+  EXPECT_FALSE(frames.back()["extrapolated"]);
+}
+
+TEST(RunJob, ASecondRunKeepsAllFrames) {
+  const auto plan = plan_of_text(small_scene(kOutputs));
+  const TemporaryFolder folder;
+  ASSERT_TRUE(run_job(plan, options_for(plan, folder.path())).ok());
+  const auto before = hashes(folder.path());
+  const auto again = run_job(plan, options_for(plan, folder.path()));
+  EXPECT_EQ(again->kept, 6);
+  EXPECT_EQ(again->rendered, 0);
+  EXPECT_EQ(hashes(folder.path()), before);
+}
+
+TEST(RunJob, RendersDamagedAndStaleFramesAgain) {
+  const auto plan = plan_of_text(small_scene(kOutputs));
+  const TemporaryFolder folder;
+  ASSERT_TRUE(run_job(plan, options_for(plan, folder.path())).ok());
+  const auto before = hashes(folder.path());
+  std::filesystem::resize_file(folder.path() / "p.0002.png", 100);
+  std::filesystem::remove(folder.path() / "l/p.0003.exr");
+  const auto mended = run_job(plan, options_for(plan, folder.path()));
+  EXPECT_EQ(mended->rendered, 2);
+  EXPECT_EQ(hashes(folder.path()), before);
+  const auto other = plan_of_text(small_scene(kOutputs, "air: {turbidity: 5}"));
+  const auto changed = run_job(other, options_for(other, folder.path()));
+  EXPECT_EQ(changed->rendered, 6);
+  EXPECT_NE(hashes(folder.path()), before);
+}
+
+TEST(RunJob, ThreadsAndShardsGiveTheSameBytes) {
+  const auto plan = plan_of_text(small_scene(kOutputs));
+  const TemporaryFolder one, two, shards;
+  auto options = options_for(plan, one.path());
+  options.jobs = 1;
+  ASSERT_TRUE(run_job(plan, options).ok());
+  options.output = two.path(), options.jobs = 2;
+  ASSERT_TRUE(run_job(plan, options).ok());
+  EXPECT_EQ(hashes(one.path()), hashes(two.path()));
+  const auto all = options.frames;
+  for (int part = 1; part <= 3; ++part) {
+    options.output = shards.path();
+    options.shard = {part, 3};
+    options.frames = plan::frames_of_shard(all, options.shard);
+    const auto summary = run_job(plan, options);
+    ASSERT_TRUE(summary.ok());
+    EXPECT_EQ(summary->complete, part == 3);
+  }
+  EXPECT_EQ(hashes(one.path()), hashes(shards.path()));
+  EXPECT_TRUE(manifest_of(shards.path())["complete"]);
+}
+
+TEST(RunJob, AMovieNeedsNoPictureFiles) {
+  const auto with = plan_of_text(small_scene(kOutputs));
+  const auto without = plan_of_text(small_scene("{movie: p.mp4, view: ACES SDR}"));
+  const TemporaryFolder a, b;
+  ASSERT_TRUE(run_job(with, options_for(with, a.path())).ok());
+  ASSERT_TRUE(run_job(without, options_for(without, b.path())).ok());
+  EXPECT_EQ(hashes(a.path()).at("p.mp4"), hashes(b.path()).at("p.mp4"));
+}
+
+TEST(RunJob, PartOfTheFramesLeavesTheMovieOutAndSaysSo) {
+  const auto plan = plan_of_text(small_scene(kOutputs));
+  const TemporaryFolder folder;
+  auto options = options_for(plan, folder.path());
+  options.frames = {2, 3};
+  const auto summary = run_job(plan, options);
+  ASSERT_TRUE(summary.ok());
+  EXPECT_EQ(summary->notes.size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "p.mp4"));
+}
+
+TEST(RunJob, AStopSignalKeepsFinishedFrames) {
+  const auto plan = plan_of_text(small_scene(kOutputs));
+  const TemporaryFolder folder;
+  auto options = options_for(plan, folder.path());
+  std::atomic<int> stop = 0;
+  options.stop_signal = &stop;
+  options.jobs = 1;
+  options.on_progress = [&](const Progress& p) {
+    if (p.done == 2) stop = 2;
+  };
+  const auto summary = run_job(plan, options);
+  ASSERT_FALSE(summary.ok());
+  EXPECT_EQ(summary.error().code, ErrorCode::interrupted);
+  EXPECT_GE(manifest_of(folder.path())["frames_complete"], 2);
+  options.stop_signal = nullptr;
+  options.on_progress = {};
+  const auto resumed = run_job(plan, options);
+  ASSERT_TRUE(resumed.ok());
+  EXPECT_GE(resumed->kept, 2);
+  EXPECT_TRUE(resumed->complete);
+}
+
+TEST(RunJob, AnUnknownViewIsFoundBeforeAnythingIsRendered) {
+  const auto plan = plan_of_text(small_scene("{image: \"p.####.png\", view: ACES SDRR}"));
+  const TemporaryFolder folder;
+  const auto summary = run_job(plan, options_for(plan, folder.path()));
+  ASSERT_FALSE(summary.ok());
+  EXPECT_EQ(summary.error().code, ErrorCode::invalid_input);
+  EXPECT_TRUE(hashes(folder.path()).empty());
+}
+
+TEST(RunJob, FramesInFlightAreBoundedByMemory) {
+  auto plan = plan_of_text(small_scene(kOutputs));
+  EXPECT_EQ(frames_in_flight(plan, 8), 9);
+  plan.job.cameras[0].camera.width = 16384;
+  plan.job.cameras[0].camera.height = 8192;
+  EXPECT_EQ(frames_in_flight(plan, 8), 1);
+}
+
+}  // namespace

@@ -1,0 +1,57 @@
+#include "plan/exposure_plan.h"
+
+#include <cmath>
+
+#include "color/exposure.h"
+#include "plan/plan_fixture.h"
+
+using namespace skylapse;
+using namespace skylapse::plan::testing;
+
+namespace {
+
+Scene whole_day(const std::string& exposure) {
+  Scene scene;
+  scene.time = "time: {zone: Europe/Prague, date: 2026-06-21, from: 00:00, to: 24:00, step: 5 min}";
+  scene.more = "exposure: {" + exposure + "}";
+  return scene;
+}
+
+TEST(ExposurePlan, FixedExposureIsTheSameForAllFrames) {
+  for (const auto& frame : plan_of(whole_day("mode: fixed, ev: 14, compensation: 1")).frames)
+    EXPECT_DOUBLE_EQ(frame.ev, 13);
+}
+
+TEST(ExposurePlan, SunCurveNeverJumps) {
+  // The sun moves at most 1.25 deg in 5 minutes; twilight loses up to 1.7 stops a degree.
+  const auto plan = plan_of(whole_day("mode: sun-curve"));
+  for (size_t i = 1; i < plan.frames.size(); ++i)
+    EXPECT_LT(std::abs(plan.frames[i].ev - plan.frames[i - 1].ev), 1.25 * 1.8);
+}
+
+TEST(ExposurePlan, MeteredExposureKeepsItsRateLimit) {
+  const auto plan = plan_of(whole_day("mode: metered, rate_limit: 0.1"));
+  for (size_t i = 1; i < plan.frames.size(); ++i)
+    EXPECT_LE(std::abs(plan.frames[i].ev - plan.frames[i - 1].ev), 0.1 * 5 + 1e-12);
+}
+
+TEST(ExposurePlan, TheMeterReadsTheModelsOwnIlluminance) {
+  const auto plan = plan_of(whole_day("mode: metered, rate_limit: 100"));
+  for (const auto& frame : plan.frames) {
+    const auto light = plan::model_illuminance(plan.job, frame);
+    ASSERT_TRUE(light.ok());
+    EXPECT_NEAR(frame.ev, color::metered_ev(*light), 1e-12);
+  }
+}
+
+TEST(ExposurePlan, DaylightIlluminanceIsWithinTheClearSkyRange) {
+  // Clear noon at 63 deg: direct and diffuse light together give 80-120 klx on the ground.
+  auto scene = whole_day("mode: metered");
+  scene.time = "time: {zone: Europe/Prague, date: 2026-06-21, at: [solar_noon]}";
+  const auto plan = plan_of(scene);
+  const double klx = plan::model_illuminance(plan.job, plan.frames[0])->in(lux) / 1000;
+  EXPECT_GT(klx, 70);
+  EXPECT_LT(klx, 120);
+}
+
+}  // namespace
