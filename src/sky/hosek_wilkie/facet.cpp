@@ -109,6 +109,8 @@ std::vector<Facet> facets_of(const image::Camera& camera) {
       std::vector<Facet> faces;
       for (const image::CubeFace face : image::kCubeFaces)
         faces.push_back(face_facet(camera, face));
+      std::sort(faces.begin(), faces.end(),
+                [](const Facet& a, const Facet& b) { return a.x0 < b.x0; });
       return faces;
     }
     case image::Projection::perspective: {

@@ -33,7 +33,8 @@ struct Facet {
   [[nodiscard]] PixelSpan visible(int row) const;
 };
 
-/// The facets of any camera but lat-long. They do not overlap; blank parts of a cross have none.
+/// The facets of any camera but lat-long, from left to right. They do not overlap; the blank parts
+/// of a cross have none.
 std::vector<Facet> facets_of(const image::Camera& camera);
 
 }  // namespace skylapse::sky::hosek_wilkie

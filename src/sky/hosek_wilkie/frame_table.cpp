@@ -72,11 +72,11 @@ FrameTable::FrameTable(const Sky& sky, const glm::dmat3& scale_to_rgb)
       values[n] = lobes(pattern, sun_angles()[n].gamma, sun_angles()[n].cosine);
     for (int interval = 0; interval < kIntervals; ++interval) {
       const auto k = cubic_through(&values[interval * kPointsPerInterval]);
-      const size_t at = size_t(band) * kIntervals + interval;
-      for (int power = 0; power < 4; ++power)
+      const size_t at = size_t(interval) * sky.patterns().count + band;
+      for (int place = 0; place < 4; ++place)
         for (int c = 0; c < 4; ++c)
-          coefficients_.data()[at * kIntervalFloats + 4 * power + c] =
-              c < 3 ? static_cast<float>(k[power] * colours_[band][c]) : 0.0f;
+          coefficients_.data()[at * kIntervalFloats + 4 * place + c] =
+              c < 3 ? static_cast<float>(k[kernel::kPowers[place]] * colours_[band][c]) : 0.0f;
       for (int c = 0; c < 3; ++c) constants_[at * 4 + c] = k[0] * colours_[band][c];
     }
   }
@@ -111,11 +111,12 @@ glm::vec3 look_up_one(const AlignedFloats& rows, double q, double w) {
   const float f = static_cast<float>(s - row), u = static_cast<float>(t - interval);
   glm::vec3 rgb;
   for (int c = 0; c < 3; ++c) {
-    auto k = [&](int power) {
-      const float low = a[4 * power + c], high = a[kRowFloats + 4 * power + c];
-      return low + f * (high - low);
-    };
-    rgb[c] = std::max(0.0f, k(0) + u * (k(1) + u * (k(2) + u * k(3))));
+    std::array<float, 4> k;
+    for (int place = 0; place < 4; ++place) {
+      const float low = a[4 * place + c], high = a[kRowFloats + 4 * place + c];
+      k[kernel::kPowers[place]] = low + f * (high - low);
+    }
+    rgb[c] = std::max(0.0f, k[0] + u * (k[1] + u * (k[2] + u * k[3])));
   }
   return rgb;
 }

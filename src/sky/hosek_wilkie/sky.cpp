@@ -63,9 +63,12 @@ Result<Sky> Sky::make(Fit fit, SolarFlux flux, double turbidity, const AlbedoSpe
 
 glm::dvec3 Sky::radiance_xyz(const Direction<Enu>& view, const Direction<Enu>& sun) const {
   const Angle gamma = separation(view, sun);
+  const double cos_gamma = cos(gamma), mu = cos_zenith(view), w = std::sqrt(mu);
   glm::dvec3 xyz(0);
-  for (int n = 0; n < patterns_.count; ++n)
-    xyz += radiance(patterns_.items[n], cos_zenith(view), gamma) * xyz_weights_[n];
+  for (int n = 0; n < patterns_.count; ++n) {
+    const Pattern& p = patterns_.items[n];
+    xyz += horizon_gradient(p, mu) * (lobes(p, gamma, cos_gamma) + p.i * w) * xyz_weights_[n];
+  }
   return xyz;
 }
 

@@ -30,14 +30,8 @@ struct Scene {
 };
 
 void fill(float* rgb, int count, const glm::vec3& colour) {
-  for (int i = 0; i < count; ++i) {
-    rgb[3 * i] = colour.x;
-    rgb[3 * i + 1] = colour.y;
-    rgb[3 * i + 2] = colour.z;
-  }
+  kernel::fill_pixels(count, {colour.x, colour.y, colour.z}, rgb);
 }
-
-void put(float* rgb, const glm::vec3& colour) { fill(rgb, 1, colour); }
 
 /// Coordinate q of sky_kernel.h in double.
 double sun_coordinate(const glm::dvec3& view, const glm::dvec3& sun) {
@@ -74,19 +68,14 @@ int coordinates(const Facet& facet, const kernel::RowView& view, int count, Bloc
   return 0;
 }
 
-/// True if a block of a plane is below `sine` at both ends and therefore all along: the unscaled
-/// height of its directions is linear in x.
+/// True if a block of a plane is below `sine` (negative) at both ends and therefore all along: the
+/// unscaled height of its directions is linear in x, and their length at most that at one end.
 bool plane_block_below(const Facet& facet, double sine, int column, int count, double y) {
   if (facet.lens != Facet::Lens::plane) return false;
   const glm::dvec3 zenith(facet.axes[0].z, facet.axes[1].z, facet.axes[2].z);
-  for (const int end : {column, column + count - 1}) {
-    const glm::dvec3 ray(facet.x_of(end), y, 1);
-    const double longest = std::sqrt(
-        1 + y * y +
-        std::max(std::pow(facet.x_of(column), 2), std::pow(facet.x_of(column + count - 1), 2)));
-    if (glm::dot(zenith, ray) > sine * longest) return false;
-  }
-  return true;
+  const glm::dvec3 first(facet.x_of(column), y, 1), last(facet.x_of(column + count - 1), y, 1);
+  const double longest = std::max(glm::length(first), glm::length(last));
+  return std::max(glm::dot(zenith, first), glm::dot(zenith, last)) < sine * longest;
 }
 
 void render_block(const Scene& scene, const Facet& facet, kernel::RowView view, int column,
@@ -104,10 +93,12 @@ void render_block(const Scene& scene, const Facet& facet, kernel::RowView view, 
     return fill(rgb, count, scene.ground);
   kernel::look_up(scene.rows.data(), at, count, rgb);
   if (low == 0) return;
-  for (int i = 0; i < count; ++i)
-    if (at.sine[i] < view.low_sine)
-      put(rgb + 3 * i,
-          at.sine[i] < -straddle ? scene.ground : horizon_pixel(scene, facet, column + i, row));
+  for (int i = 0; i < count; ++i) {
+    if (at.sine[i] >= view.low_sine) continue;
+    const glm::vec3 colour =
+        at.sine[i] < -straddle ? scene.ground : horizon_pixel(scene, facet, column + i, row);
+    std::copy_n(&colour.x, 3, rgb + 3 * i);
+  }
 }
 
 kernel::Vec3f in_axes(const glm::dmat3& axes, const glm::dvec3& enu) {
@@ -115,7 +106,8 @@ kernel::Vec3f in_axes(const glm::dmat3& axes, const glm::dvec3& enu) {
   return {v.x, v.y, v.z};
 }
 
-void render_facet_row(const Scene& scene, const Facet& facet, int row, float* rgb) {
+/// Fills one facet's part of an image row; returns the pixels it has written.
+PixelSpan render_facet_row(const Scene& scene, const Facet& facet, int row, float* rgb) {
   kernel::RowView view{};
   view.x_step = static_cast<float>(1 / facet.unit_px);
   view.y = static_cast<float>(facet.y_of(row));
@@ -125,6 +117,7 @@ void render_facet_row(const Scene& scene, const Facet& facet, int row, float* rg
   for (int column = span.begin; column < span.end; column += kBlock)
     render_block(scene, facet, view, column, std::min(kBlock, span.end - column), row,
                  rgb + size_t{3} * column);
+  return span;
 }
 
 void render_facets(const Scene& scene, int first_row, image::FrameBuffer& out) {
@@ -134,11 +127,14 @@ void render_facets(const Scene& scene, int first_row, image::FrameBuffer& out) {
     for (size_t y = begin; y < end; ++y) {
       const int row = first_row + static_cast<int>(y);
       float* rgb = out.row(static_cast<int>(y));
-      const bool blank = scene.camera.projection != image::Projection::perspective;
-      if (blank) std::fill_n(rgb, size_t{3} * out.width(), 0.0f);
-      for (const Facet& facet : facets)
-        if (row >= facet.y0 && row < facet.y0 + facet.height)
-          render_facet_row(scene, facet, row, rgb);
+      int done = 0;  // pixels; what no facet shows is black
+      for (const Facet& facet : facets) {
+        if (row < facet.y0 || row >= facet.y0 + facet.height) continue;
+        const PixelSpan span = render_facet_row(scene, facet, row, rgb);
+        fill(rgb + size_t{3} * done, span.begin - done, glm::vec3(0));
+        done = span.end;
+      }
+      fill(rgb + size_t{3} * done, out.width() - done, glm::vec3(0));
     }
   });
 }

@@ -18,18 +18,30 @@ namespace {
 
 using Float4 = float __attribute__((vector_size(16)));
 using Float8 = float __attribute__((vector_size(32)));
-// The same in memory that is aligned as floats only.
-using Float8InMemory = float __attribute__((vector_size(32), aligned(4), may_alias));
+using Float16 = float __attribute__((vector_size(64)));
+using Double4 = double __attribute__((vector_size(32)));
+// The same in memory that is aligned as its elements only.
+using Float16InMemory = float __attribute__((vector_size(64), aligned(4), may_alias));
+using Double4InMemory = double __attribute__((vector_size(32), aligned(8), may_alias));
 
-SKYLAPSE_INLINE Float8 load8(const float* p) { return *reinterpret_cast<const Float8InMemory*>(p); }
+SKYLAPSE_INLINE Float16 load16(const float* p) {
+  return *reinterpret_cast<const Float16InMemory*>(p);
+}
 
-SKYLAPSE_INLINE Float4 lower(Float8 v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
-SKYLAPSE_INLINE Float4 upper(Float8 v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
+SKYLAPSE_INLINE Double4 load4(const double* p) {
+  return *reinterpret_cast<const Double4InMemory*>(p);
+}
 
-/// (k0 + t^2 k2) + t (k1 + t^2 k3), from {k0, k1} and {k2, k3}; never negative.
-SKYLAPSE_INLINE Float4 cubic(Float8 k01, Float8 k23, float t) {
-  const Float8 halves = k01 + (t * t) * k23;
-  const Float4 value = lower(halves) + t * upper(halves);
+/// Value of one interval's polynomial, coefficients in the order of kPowers; never negative.
+SKYLAPSE_INLINE Float4 cubic(Float16 k, float t) {
+  const Float8 k02 = __builtin_shufflevector(k, k, 0, 1, 2, 3, 4, 5, 6, 7);
+  const Float8 k13 = __builtin_shufflevector(k, k, 8, 9, 10, 11, 12, 13, 14, 15);
+  const Float4 t4 = {t, t, t, t};
+  const Float8 t8 = __builtin_shufflevector(t4, t4, 0, 1, 2, 3, 0, 1, 2, 3);
+  const Float8 sum = k02 + t8 * k13;
+  const Float4 low = __builtin_shufflevector(sum, sum, 0, 1, 2, 3);
+  const Float4 high = __builtin_shufflevector(sum, sum, 4, 5, 6, 7);
+  const Float4 value = low + (t4 * t4) * high;
   const Float4 zero{};
   return value > zero ? value : zero;
 }
@@ -99,18 +111,28 @@ SKYLAPSE_INLINE int fisheye_coordinates(const RowView& view, int count, BlockCoo
 SKYLAPSE_CLONES
 void combine_bands(const BandPolynomials& bands, const double* weights, const double* offset,
                    float* row) {
-  for (int interval = 0; interval < kIntervals; ++interval) {
-    float sum[kIntervalFloats] = {};
-    double constant[4] = {offset[0], offset[1], offset[2], offset[3]};
+  // Several intervals at a time: one sum alone would wait for its own additions.
+  constexpr int kAtOnce = 4;
+  static_assert(kIntervals % kAtOnce == 0);
+  const int stride = bands.band_count * kIntervalFloats;
+  for (int first = 0; first < kIntervals; first += kAtOnce) {
+    Float16 sum[kAtOnce] = {};
+    Double4 constant[kAtOnce] = {};
+    const float* k = bands.coefficients + first * stride;
+    const double* k0 = bands.constants + first * bands.band_count * 4;
     for (int band = 0; band < bands.band_count; ++band) {
-      const float weight = static_cast<float>(weights[band]);
-      const float* k = bands.coefficients + (band * kIntervals + interval) * kIntervalFloats;
-      const double* k0 = bands.constants + (band * kIntervals + interval) * 4;
-      for (int j = 0; j < kIntervalFloats; ++j) sum[j] += weight * k[j];
-      for (int j = 0; j < 4; ++j) constant[j] += weights[band] * k0[j];
+      for (int n = 0; n < kAtOnce; ++n) {
+        sum[n] += static_cast<float>(weights[band]) * load16(k + n * stride);
+        constant[n] += weights[band] * load4(k0 + n * bands.band_count * 4);
+      }
+      k += kIntervalFloats;
+      k0 += 4;
     }
-    for (int j = 0; j < 4; ++j) sum[j] = static_cast<float>(constant[j]);
-    std::memcpy(row + interval * kIntervalFloats, sum, sizeof sum);
+    for (int n = 0; n < kAtOnce; ++n) {
+      float* out = row + (first + n) * kIntervalFloats;
+      std::memcpy(out, &sum[n], sizeof sum[n]);
+      for (int c = 0; c < 4; ++c) out[c] = static_cast<float>(constant[n][c] + offset[c]);
+    }
   }
 }
 
@@ -163,13 +185,9 @@ SKYLAPSE_CLONES
 void look_up(const float* table, const BlockCoordinates& at, int count, float* rgb) {
   store_pixels(
       count, rgb, [&](int i) __attribute__((always_inline)) {
-        const float* a = table + at.table_offset[i];
-        const float* b = a + kRowFloats;
-        const float f = at.w_fraction[i];
-        const Float8 a01 = load8(a), a23 = load8(a + 8);
-        const Float8 k01 = a01 + f * (load8(b) - a01);
-        const Float8 k23 = a23 + f * (load8(b + 8) - a23);
-        return cubic(k01, k23, at.q_fraction[i]);
+        const float* below = table + at.table_offset[i];
+        const Float16 k = load16(below);
+        return cubic(k + at.w_fraction[i] * (load16(below + kRowFloats) - k), at.q_fraction[i]);
       });
 }
 
@@ -189,10 +207,23 @@ void look_up_level_row(const float* row, const LevelRow& level, int count, float
     }
     store_pixels(
         n, rgb + 3 * first, [&](int i) __attribute__((always_inline)) {
-          const float* a = row + offset[i];
-          return cubic(load8(a), load8(a + 8), fraction[i]);
+          return cubic(load16(row + offset[i]), fraction[i]);
         });
   }
+}
+
+SKYLAPSE_CLONES
+void fill_pixels(int count, Colour colour, float* rgb) {
+  constexpr int kTogether = 16;  // pixels: 48 floats, three cache lines
+  float pattern[3 * kTogether];
+  for (int i = 0; i < kTogether; ++i) {
+    pattern[3 * i] = colour.r;
+    pattern[3 * i + 1] = colour.g;
+    pattern[3 * i + 2] = colour.b;
+  }
+  int i = 0;
+  for (; i + kTogether <= count; i += kTogether) std::memcpy(rgb + 3 * i, pattern, sizeof pattern);
+  std::memcpy(rgb + 3 * i, pattern, sizeof(float) * 3 * static_cast<size_t>(count - i));
 }
 
 }  // namespace skylapse::sky::hosek_wilkie::kernel

@@ -12,8 +12,10 @@
 namespace skylapse::sky::hosek_wilkie::kernel {
 
 inline constexpr int kIntervals = 64;
-/// One interval: coefficients of 1, t, t^2, t^3 (t in [0, 1]), each for R, G, B and one unused.
+/// One interval: the coefficients of four powers of t in [0, 1], each for R, G, B and one unused.
 inline constexpr int kIntervalFloats = 16;
+/// The order they are stored in: (k0, k2) + t (k1, k3) is one multiplication of eight values.
+inline constexpr int kPowers[4] = {0, 2, 1, 3};
 inline constexpr int kRowFloats = kIntervals * kIntervalFloats;
 /// Rows along w, linear in between.
 inline constexpr int kRowSteps = 256;
@@ -23,8 +25,8 @@ inline constexpr int kBlock = 256;
 /// The polynomials of each band (already times its colour), to be summed with the bands' horizon
 /// gradients as weights. Constant terms are double: they cancel against each other.
 struct BandPolynomials {
-  const float* coefficients;  // [band][kIntervals][kIntervalFloats]
-  const double* constants;    // [band][kIntervals][4]
+  const float* coefficients;  // [kIntervals][band][kIntervalFloats]
+  const double* constants;    // [kIntervals][band][4]
   int band_count;
 };
 
@@ -72,5 +74,10 @@ struct LevelRow {
   const float* far;
 };
 void look_up_level_row(const float* row, const LevelRow& level, int count, float* rgb);
+
+struct Colour {
+  float r, g, b;
+};
+void fill_pixels(int count, Colour colour, float* rgb);
 
 }  // namespace skylapse::sky::hosek_wilkie::kernel
