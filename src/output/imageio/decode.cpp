@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string_view>
 
 namespace skylapse::output::imageio {
 namespace {
@@ -23,8 +24,17 @@ std::array<int, 3> rgb_channels(const OIIO::ImageSpec& spec) {
   return {0, 1, 2};
 }
 
-std::optional<Attribute> to_attribute(const OIIO::ParamValue& p) {
-  const std::string name = p.name().string();
+/// OpenImageIO renames some of OpenEXR's attributes on reading; ours keep the names of the file.
+std::string stored_name(const std::string& name, bool exr) {
+  if (!exr) return name;
+  if (name == "DateTime") return "capDate";
+  if (name == "ExposureTime") return "expTime";
+  if (name == "FNumber") return "aperture";
+  return name;
+}
+
+std::optional<Attribute> to_attribute(const OIIO::ParamValue& p, bool exr) {
+  const std::string name = stored_name(p.name().string(), exr);
   const OIIO::TypeDesc type = p.type();
   if (type == OIIO::TypeString) return Attribute{name, std::string(p.get_string())};
   if (type == OIIO::TypeInt) return Attribute{name, p.get<int>()};
@@ -57,14 +67,18 @@ Result<DecodedImage> decode(const std::string& path) {
   const bool direct = count == 3 && rgb[0] == first && rgb[1] == first + 1;
   if (!direct) loose.resize(image.pixels.pixel_count() * static_cast<size_t>(count));
   float* const target = direct ? image.pixels.data().data() : loose.data();
-  if (!input->read_image(0, 0, first, first + count, OIIO::TypeFloat, target))
-    return unreadable(path, input->geterror());
+  const bool read = input->read_image(0, 0, first, first + count, OIIO::TypeFloat, target);
+  // A TIFF or JPEG that ends early is reported as read, with black for the rest: only the text of
+  // the error tells.
+  if (const std::string why = input->geterror(); !read || !why.empty())
+    return unreadable(path, why.substr(0, why.find('\n')));
   for (size_t i = 0; !direct && i < image.pixels.pixel_count(); ++i)
     for (size_t c = 0; c < 3; ++c)
       image.pixels.data()[3 * i + c] =
           loose[i * static_cast<size_t>(count) + static_cast<size_t>(rgb[c] - first)];
+  const bool exr = std::string_view(input->format_name()) == "openexr";
   for (const OIIO::ParamValue& p : spec.extra_attribs)
-    if (auto a = to_attribute(p)) image.attributes.push_back(std::move(*a));
+    if (auto a = to_attribute(p, exr)) image.attributes.push_back(std::move(*a));
   image.floating_point = spec.format.is_floating_point();
   const int stored = spec.get_int_attribute("oiio:BitsPerSample");
   image.stored_bits = stored > 0 ? stored : static_cast<int>(spec.format.size() * 8);

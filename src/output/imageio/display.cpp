@@ -27,6 +27,7 @@ class OcioDisplay final : public DisplayTransform {
     constexpr size_t kPiece = 1024;
     for (size_t done = 0; done < pixels; done += kPiece) {
       const size_t count = std::min(kPiece, pixels - done);
+      limit(rgb + 3 * done, 3 * count);
       if (staged_)
         staged_->apply(rgb + 3 * done, count);
       else
@@ -35,6 +36,14 @@ class OcioDisplay final : public DisplayTransform {
   }
 
  private:
+  /// Infinite radiance must come out white: the transforms' own sums would make it Inf - Inf, and
+  /// show it black like NaN.
+  static void limit(float* samples, size_t count) {
+    constexpr float kFar = 1e30f;
+    for (size_t i = 0; i < count; ++i)
+      samples[i] = samples[i] > kFar ? kFar : (samples[i] < -kFar ? -kFar : samples[i]);
+  }
+
   OCIO::ConstCPUProcessorRcPtr plain_;
   std::unique_ptr<StagedProcessor> staged_;  // null: use plain_
 };
