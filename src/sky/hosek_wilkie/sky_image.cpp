@@ -172,13 +172,17 @@ void render_level_row(const FrameTable& table, const Scene& scene, const ColumnA
   const double s = std::sin(0.5 * (theta - theta_s)), c = std::cos(0.5 * (theta + theta_s));
   alignas(64) float polynomials[kernel::kRowFloats];
   table.make_row(std::sqrt(std::max(0.0, std::cos(theta))), polynomials);
-  kernel::look_up_level_row(polynomials,
-                            {.near_base = static_cast<float>(2 * s * s),
-                             .far_base = static_cast<float>(2 * c * c),
-                             .slope = static_cast<float>(std::sin(theta) * std::sin(theta_s)),
-                             .near = columns.near.data(),
-                             .far = columns.far.data()},
-                            width, rgb);
+  const kernel::LevelRow level{.near_base = static_cast<float>(2 * s * s),
+                               .far_base = static_cast<float>(2 * c * c),
+                               .slope = static_cast<float>(std::sin(theta) * std::sin(theta_s)),
+                               .near = columns.near.data(),
+                               .far = columns.far.data()};
+  kernel::RowCoordinates place;
+  for (int first = 0; first < width; first += kBlock) {
+    const int count = std::min(kBlock, width - first);
+    kernel::level_coordinates(level, first, count, place);
+    kernel::look_up_row(polynomials, place, count, rgb + size_t{3} * first);
+  }
   if (share == 1) return;
   for (int i = 0; i < width; ++i)
     for (int channel = 0; channel < 3; ++channel)

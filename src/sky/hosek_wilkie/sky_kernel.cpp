@@ -5,13 +5,22 @@
 #include <cmath>
 #include <cstring>
 
+#define SKYLAPSE_INLINE static inline __attribute__((always_inline))
+
+// Loops for the vectoriser: one text, compiled for each instruction set by the compiler. Loops with
+// vectors of our own: three versions from one template, as wide as each set's registers.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define SKYLAPSE_X86 1
 #define SKYLAPSE_CLONES \
   __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#define SKYLAPSE_V3 __attribute__((target("arch=x86-64-v3")))
+#define SKYLAPSE_V4 __attribute__((target("arch=x86-64-v4")))
 #else
+#define SKYLAPSE_X86 0
 #define SKYLAPSE_CLONES
+#define SKYLAPSE_V3
+#define SKYLAPSE_V4
 #endif
-#define SKYLAPSE_INLINE static inline __attribute__((always_inline))
 
 namespace skylapse::sky::hosek_wilkie::kernel {
 namespace {
@@ -19,31 +28,74 @@ namespace {
 using Float4 = float __attribute__((vector_size(16)));
 using Float8 = float __attribute__((vector_size(32)));
 using Float16 = float __attribute__((vector_size(64)));
+
+using Double2 = double __attribute__((vector_size(16)));
 using Double4 = double __attribute__((vector_size(32)));
-// The same in memory that is aligned as its elements only.
-using Float16InMemory = float __attribute__((vector_size(64), aligned(4), may_alias));
-using Double4InMemory = double __attribute__((vector_size(32), aligned(8), may_alias));
 
-SKYLAPSE_INLINE Float16 load16(const float* p) {
-  return *reinterpret_cast<const Float16InMemory*>(p);
+/// The vector of doubles to go with a vector of floats; four sums are all there is to hold.
+template <class Vector>
+struct DoublesBeside {
+  using type = Double4;
+};
+template <>
+struct DoublesBeside<Float4> {
+  using type = Double2;
+};
+
+/// From memory that is aligned as its elements only.
+template <class Vector, class Element>
+SKYLAPSE_INLINE Vector load(const Element* p) {
+  Vector v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
 }
 
-SKYLAPSE_INLINE Double4 load4(const double* p) {
-  return *reinterpret_cast<const Double4InMemory*>(p);
+/// The sixteen coefficients of one interval, in one, two or four vectors.
+template <class Vector>
+struct Interval {
+  static constexpr int kLanes = sizeof(Vector) / sizeof(float);
+  static constexpr int kParts = kIntervalFloats / kLanes;
+  Vector part[kParts];
+};
+
+/// Between two rows: a + f (b - a).
+template <class Vector>
+SKYLAPSE_INLINE Interval<Vector> between(const float* a, const float* b, float f) {
+  Interval<Vector> k;
+  for (int n = 0; n < k.kParts; ++n) {
+    const Vector low = load<Vector>(a + n * k.kLanes);
+    k.part[n] = low + f * (load<Vector>(b + n * k.kLanes) - low);
+  }
+  return k;
 }
 
-/// Value of one interval's polynomial, coefficients in the order of kPowers; never negative.
-SKYLAPSE_INLINE Float4 cubic(Float16 k, float t) {
-  const Float8 k02 = __builtin_shufflevector(k, k, 0, 1, 2, 3, 4, 5, 6, 7);
-  const Float8 k13 = __builtin_shufflevector(k, k, 8, 9, 10, 11, 12, 13, 14, 15);
-  const Float4 t4 = {t, t, t, t};
-  const Float8 t8 = __builtin_shufflevector(t4, t4, 0, 1, 2, 3, 0, 1, 2, 3);
-  const Float8 sum = k02 + t8 * k13;
+template <class Vector>
+SKYLAPSE_INLINE Interval<Vector> at(const float* p) {
+  Interval<Vector> k;
+  for (int n = 0; n < k.kParts; ++n) k.part[n] = load<Vector>(p + n * k.kLanes);
+  return k;
+}
+
+SKYLAPSE_INLINE Float4 not_negative(Float4 v) {
+  const Float4 zero{};
+  return v > zero ? v : zero;
+}
+
+/// (k0 + t k1) + t^2 (k2 + t k3), never negative; coefficients in the order of kPowers.
+SKYLAPSE_INLINE Float4 cubic(const Interval<Float4>& k, float t) {
+  return not_negative((k.part[0] + t * k.part[2]) + (t * t) * (k.part[1] + t * k.part[3]));
+}
+SKYLAPSE_INLINE Float4 cubic(const Interval<Float8>& k, float t) {
+  const Float8 sum = k.part[0] + t * k.part[1];
   const Float4 low = __builtin_shufflevector(sum, sum, 0, 1, 2, 3);
   const Float4 high = __builtin_shufflevector(sum, sum, 4, 5, 6, 7);
-  const Float4 value = low + (t4 * t4) * high;
-  const Float4 zero{};
-  return value > zero ? value : zero;
+  return not_negative(low + (t * t) * high);
+}
+SKYLAPSE_INLINE Float4 cubic(const Interval<Float16>& k, float t) {
+  const Float16 all = k.part[0];
+  return cubic(Interval<Float8>{__builtin_shufflevector(all, all, 0, 1, 2, 3, 4, 5, 6, 7),
+                                __builtin_shufflevector(all, all, 8, 9, 10, 11, 12, 13, 14, 15)},
+               t);
 }
 
 /// Writes R, G, B of pixels 0 .. count-1. All but the last store four floats, of which the next
@@ -106,35 +158,127 @@ SKYLAPSE_INLINE int fisheye_coordinates(const RowView& view, int count, BlockCoo
   return low;
 }
 
-}  // namespace
-
-SKYLAPSE_CLONES
-void combine_bands(const BandPolynomials& bands, const double* weights, const double* offset,
-                   float* row) {
-  // Several intervals at a time: one sum alone would wait for its own additions.
-  constexpr int kAtOnce = 4;
-  static_assert(kIntervals % kAtOnce == 0);
+template <class Vector>
+SKYLAPSE_INLINE void combine_bands_in(const BandPolynomials& bands, const double* weights,
+                                      const double* offset, float* row) {
+  // Several sums at a time: one alone would wait for its own additions.
+  constexpr int kAtOnce = Interval<Vector>::kLanes / 4;
+  using Double = typename DoublesBeside<Vector>::type;
+  constexpr int kDoubles = sizeof(Double) / sizeof(double);
   const int stride = bands.band_count * kIntervalFloats;
   for (int first = 0; first < kIntervals; first += kAtOnce) {
-    Float16 sum[kAtOnce] = {};
-    Double4 constant[kAtOnce] = {};
+    Interval<Vector> sum[kAtOnce] = {};
+    Double constant[kAtOnce][4 / kDoubles] = {};
     const float* k = bands.coefficients + first * stride;
     const double* k0 = bands.constants + first * bands.band_count * 4;
-    for (int band = 0; band < bands.band_count; ++band) {
+    for (int band = 0; band < bands.band_count; ++band, k += kIntervalFloats, k0 += 4) {
+      const float weight = static_cast<float>(weights[band]);
       for (int n = 0; n < kAtOnce; ++n) {
-        sum[n] += static_cast<float>(weights[band]) * load16(k + n * stride);
-        constant[n] += weights[band] * load4(k0 + n * bands.band_count * 4);
+        for (int part = 0; part < Interval<Vector>::kParts; ++part)
+          sum[n].part[part] +=
+              weight * load<Vector>(k + n * stride + part * Interval<Vector>::kLanes);
+        for (int part = 0; part < 4 / kDoubles; ++part)
+          constant[n][part] +=
+              weights[band] * load<Double>(k0 + n * bands.band_count * 4 + part * kDoubles);
       }
-      k += kIntervalFloats;
-      k0 += 4;
     }
     for (int n = 0; n < kAtOnce; ++n) {
       float* out = row + (first + n) * kIntervalFloats;
       std::memcpy(out, &sum[n], sizeof sum[n]);
-      for (int c = 0; c < 4; ++c) out[c] = static_cast<float>(constant[n][c] + offset[c]);
+      for (int c = 0; c < 4; ++c)
+        out[c] = static_cast<float>(constant[n][c / kDoubles][c % kDoubles] + offset[c]);
     }
   }
 }
+
+template <class Vector>
+SKYLAPSE_INLINE void look_up_in(const float* table, const BlockCoordinates& place, int count,
+                                float* rgb) {
+  store_pixels(
+      count, rgb, [&](int i) __attribute__((always_inline)) {
+        const float* row = table + place.table_offset[i];
+        return cubic(between<Vector>(row, row + kRowFloats, place.w_fraction[i]),
+                     place.q_fraction[i]);
+      });
+}
+
+template <class Vector>
+SKYLAPSE_INLINE void look_up_row_in(const float* row, const RowCoordinates& place, int count,
+                                    float* rgb) {
+  store_pixels(
+      count, rgb, [&](int i) __attribute__((always_inline)) {
+        return cubic(at<Vector>(row + place.table_offset[i]), place.q_fraction[i]);
+      });
+}
+
+/// The loops with vectors of one width.
+struct Versions {
+  void (*combine_bands)(const BandPolynomials&, const double*, const double*, float*);
+  void (*look_up)(const float*, const BlockCoordinates&, int, float*);
+  void (*look_up_row)(const float*, const RowCoordinates&, int, float*);
+};
+
+struct Narrow {
+  static void combine_bands(const BandPolynomials& bands, const double* weights,
+                            const double* offset, float* row) {
+    combine_bands_in<Float4>(bands, weights, offset, row);
+  }
+  static void look_up(const float* table, const BlockCoordinates& place, int count, float* rgb) {
+    look_up_in<Float4>(table, place, count, rgb);
+  }
+  static void look_up_row(const float* row, const RowCoordinates& place, int count, float* rgb) {
+    look_up_row_in<Float4>(row, place, count, rgb);
+  }
+};
+
+struct Wide {
+  SKYLAPSE_V3 static void combine_bands(const BandPolynomials& bands, const double* weights,
+                                        const double* offset, float* row) {
+    combine_bands_in<Float8>(bands, weights, offset, row);
+  }
+  SKYLAPSE_V3 static void look_up(const float* table, const BlockCoordinates& place, int count,
+                                  float* rgb) {
+    look_up_in<Float8>(table, place, count, rgb);
+  }
+  SKYLAPSE_V3 static void look_up_row(const float* row, const RowCoordinates& place, int count,
+                                      float* rgb) {
+    look_up_row_in<Float8>(row, place, count, rgb);
+  }
+};
+
+struct Widest {
+  SKYLAPSE_V4 static void combine_bands(const BandPolynomials& bands, const double* weights,
+                                        const double* offset, float* row) {
+    combine_bands_in<Float16>(bands, weights, offset, row);
+  }
+  SKYLAPSE_V4 static void look_up(const float* table, const BlockCoordinates& place, int count,
+                                  float* rgb) {
+    look_up_in<Float16>(table, place, count, rgb);
+  }
+  SKYLAPSE_V4 static void look_up_row(const float* row, const RowCoordinates& place, int count,
+                                      float* rgb) {
+    look_up_row_in<Float16>(row, place, count, rgb);
+  }
+};
+
+template <class Set>
+constexpr Versions versions_of() {
+  return {Set::combine_bands, Set::look_up, Set::look_up_row};
+}
+
+/// What this machine can run; asked once.
+const Versions& best() {
+  static const Versions versions = [] {
+#if SKYLAPSE_X86
+    if (__builtin_cpu_supports("x86-64-v4")) return versions_of<Widest>();
+    if (__builtin_cpu_supports("x86-64-v3")) return versions_of<Wide>();
+#endif
+    return versions_of<Narrow>();
+  }();
+  return versions;
+}
+
+}  // namespace
 
 SKYLAPSE_CLONES
 int plane_coordinates(const RowView& view, int count, BlockCoordinates& out) {
@@ -181,34 +325,28 @@ int stereographic_coordinates(const RowView& view, float k, int count, BlockCoor
   });
 }
 
-SKYLAPSE_CLONES
-void look_up(const float* table, const BlockCoordinates& at, int count, float* rgb) {
-  store_pixels(
-      count, rgb, [&](int i) __attribute__((always_inline)) {
-        const float* below = table + at.table_offset[i];
-        const Float16 k = load16(below);
-        return cubic(k + at.w_fraction[i] * (load16(below + kRowFloats) - k), at.q_fraction[i]);
-      });
+void combine_bands(const BandPolynomials& bands, const double* weights, const double* offset,
+                   float* row) {
+  best().combine_bands(bands, weights, offset, row);
+}
+
+void look_up(const float* table, const BlockCoordinates& place, int count, float* rgb) {
+  best().look_up(table, place, count, rgb);
+}
+
+void look_up_row(const float* row, const RowCoordinates& place, int count, float* rgb) {
+  best().look_up_row(row, place, count, rgb);
 }
 
 SKYLAPSE_CLONES
-void look_up_level_row(const float* row, const LevelRow& level, int count, float* rgb) {
-  alignas(64) float fraction[kBlock];
-  alignas(64) std::int32_t offset[kBlock];
-  for (int first = 0; first < count; first += kBlock) {
-    const int n = count - first < kBlock ? count - first : kBlock;
-    for (int i = 0; i < n; ++i) {
-      const float near = level.near_base + level.slope * level.near[first + i];
-      const float far = level.far_base + level.slope * level.far[first + i];
-      const float q = near <= far ? std::sqrt(near) : 2.0f - std::sqrt(far);
-      std::int32_t interval;
-      place_q(q, interval, fraction[i]);
-      offset[i] = interval * kIntervalFloats;
-    }
-    store_pixels(
-        n, rgb + 3 * first, [&](int i) __attribute__((always_inline)) {
-          return cubic(load16(row + offset[i]), fraction[i]);
-        });
+void level_coordinates(const LevelRow& level, int first, int count, RowCoordinates& out) {
+  for (int i = 0; i < count; ++i) {
+    const float near = level.near_base + level.slope * level.near[first + i];
+    const float far = level.far_base + level.slope * level.far[first + i];
+    const float root = std::sqrt(near < far ? near : far);
+    std::int32_t interval;
+    place_q(near < far ? root : 2.0f - root, interval, out.q_fraction[i]);
+    out.table_offset[i] = interval * kIntervalFloats;
   }
 }
 

@@ -64,7 +64,7 @@ int equisolid_coordinates(const RowView& view, float k, int count, BlockCoordina
 int stereographic_coordinates(const RowView& view, float k, int count, BlockCoordinates& out);
 
 /// Reads the table at the block's coordinates into interleaved RGB; negative values become 0.
-void look_up(const float* table, const BlockCoordinates& at, int count, float* rgb);
+void look_up(const float* table, const BlockCoordinates& place, int count, float* rgb);
 
 /// A row of constant elevation: 1 - cos gamma = near_base + slope * near[i] and
 /// 1 + cos gamma = far_base + slope * far[i]; see sky_image.cpp.
@@ -73,7 +73,16 @@ struct LevelRow {
   const float* near;
   const float* far;
 };
-void look_up_level_row(const float* row, const LevelRow& level, int count, float* rgb);
+
+/// Where the pixels of a block fall in a single row of the table.
+struct RowCoordinates {
+  alignas(64) float q_fraction[kBlock];
+  alignas(64) std::int32_t table_offset[kBlock];
+};
+/// Coordinates of the pixels [first, first + count) of a level row.
+void level_coordinates(const LevelRow& level, int first, int count, RowCoordinates& out);
+/// As look_up, from the one row.
+void look_up_row(const float* row, const RowCoordinates& place, int count, float* rgb);
 
 struct Colour {
   float r, g, b;
