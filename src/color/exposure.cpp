@@ -7,24 +7,24 @@
 namespace skylapse::color {
 namespace {
 
-constexpr double kIncidentMeterConstant = 250;    // C, lx s
 constexpr double kReflectedMeterConstant = 12.5;  // K, cd s m^-2
-constexpr double kDarkestMeteredLux = 1e-4;
-constexpr double kDaylightLux = 1e5;
+constexpr double kDarkestMetered = 1e-5;          // cd/m^2
+constexpr double kDaylightSky = 5000;             // cd/m^2, mean of a clear sky around noon
+constexpr double kDaylightBias = 0.6;             // stops brighter than the meter
 constexpr double kCompressionOfLightLoss = 0.86;
 constexpr double kMiddleGrey = 0.18;
 constexpr double kIso = 100;
 
 }  // namespace
 
-double metered_ev(Illuminance horizontal) {
-  const double e = std::max(horizontal.in(lux), kDarkestMeteredLux);
-  return std::log2(e * kIso / kIncidentMeterConstant);
+double metered_ev(Luminance luminance) {
+  const double l = std::max(luminance.in(cd_per_m2), kDarkestMetered);
+  return std::log2(l * kIso / kReflectedMeterConstant);
 }
 
-double sun_curve_ev(Illuminance horizontal) {
-  const double daylight = metered_ev(kDaylightLux * lux);
-  return daylight + kCompressionOfLightLoss * (metered_ev(horizontal) - daylight);
+double sun_curve_ev(Luminance clear_sky) {
+  const double daylight = metered_ev(kDaylightSky * cd_per_m2);
+  return daylight - kDaylightBias + kCompressionOfLightLoss * (metered_ev(clear_sky) - daylight);
 }
 
 std::vector<double> follow_meter(const std::vector<MeteredFrame>& frames, double rate_limit) {

@@ -16,14 +16,14 @@ struct ExposureSettings {
   double rate_limit = 0.5;    // metered: greatest change in stops per minute
 };
 
-/// EV100 that an incident-light meter with C = 250 lx s reads (ISO 2720:1974):
-/// log2(E / 2.5 lx). Illuminances below 1e-4 lx count as 1e-4 lx.
-double metered_ev(Illuminance horizontal);
+/// EV100 that a reflected-light meter with K = 12.5 cd s m^-2 reads (ISO 2720:1974) on a surface of
+/// this luminance: log2(100 L / K). Below 1e-5 cd/m^2 counts as that.
+double metered_ev(Luminance luminance);
 
-/// The `sun_curve` mode: full daylight (above 100 klx) is exposed as metered, and each stop of
-/// light lost is answered by 0.86 stops of exposure, so that dusk looks darker than noon by about
-/// a stop and a night by three, with no step anywhere the illuminance has none.
-double sun_curve_ev(Illuminance horizontal);
+/// The `sun_curve` mode, for the mean luminance of a clear sky. Daylight is exposed 0.6 stops above
+/// the meter, and each stop of light lost is answered by 0.86 stops of exposure, so that dusk looks
+/// darker than noon by about a stop and night by three, with no step where the light has none.
+double sun_curve_ev(Luminance clear_sky);
 
 /// A value of a metered sequence: seconds since the sequence's start, and the meter's EV.
 struct MeteredFrame {

@@ -1,5 +1,7 @@
 #include "plan/exposure_plan.h"
 
+#include <numbers>
+
 #include "color/exposure.h"
 #include "core/constants.h"
 #include "plan/sky_of_frame.h"
@@ -17,7 +19,7 @@ Status plan_metered(Plan& plan) {
     size_t end = begin;
     for (; end < plan.frames.size() && plan.frames[end].sequence == plan.frames[begin].sequence;
          ++end) {
-      auto light = model_illuminance(plan.job, plan.frames[end]);
+      auto light = model_sky_luminance(plan.job, plan.frames[end]);
       if (!light) return light.error();
       const Duration since = plan.frames[end].instant - plan.frames[begin].instant;
       meter.push_back({since, color::metered_ev(*light)});
@@ -31,12 +33,12 @@ Status plan_metered(Plan& plan) {
 
 }  // namespace
 
-Result<Illuminance> model_illuminance(const config::JobConfig& job, const Frame& frame) {
+Result<Luminance> model_sky_luminance(const config::JobConfig& job, const Frame& frame) {
   const auto sky = sky_of_frame(job, frame);
   if (!sky) return sky.error();
-  double y = sky->diffuse_irradiance_xyz().y;
-  if (job.sky.sun_disc && !frame.sun.extrapolated) y += sky->direct_irradiance().horizontal_xyz.y;
-  return y * frame.sun.twilight_level * frame.sun.distance_factor * kLuminousEfficacy * lux;
+  const double level = frame.sun.twilight_level * frame.sun.distance_factor;
+  const double illuminance = kLuminousEfficacy * sky->diffuse_irradiance_xyz().y * level;
+  return illuminance / std::numbers::pi * cd_per_m2;
 }
 
 Status plan_exposure(Plan& plan) {
@@ -45,7 +47,7 @@ Status plan_exposure(Plan& plan) {
   for (Frame& frame : plan.frames) {
     frame.ev = settings.ev;
     if (settings.mode == color::ExposureMode::sun_curve)
-      frame.ev = color::sun_curve_ev(sky::clear_sky_illuminance(elevation(frame.sky.sun_true)));
+      frame.ev = color::sun_curve_ev(sky::mean_clear_sky_luminance(elevation(frame.sky.sun_true)));
     frame.ev -= settings.compensation;
   }
   return Done{};

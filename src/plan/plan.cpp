@@ -8,6 +8,7 @@
 
 #include "plan/exposure_plan.h"
 #include "plan/path_template.h"
+#include "plan/sky_of_frame.h"
 
 namespace skylapse::plan {
 namespace {
@@ -68,7 +69,7 @@ std::optional<Error> find_collision(const Plan& plan) {
   return {};
 }
 
-void add_frames(Plan& plan, const Schedule& schedule) {
+Status add_frames(Plan& plan, const Schedule& schedule) {
   const config::JobConfig& job = plan.job;
   const astro::Ephemeris ephemeris({.algorithm = job.sky.sun_algorithm, .dut1 = job.time.dut1});
   std::vector<astro::SkyState> skies;
@@ -83,7 +84,9 @@ void add_frames(Plan& plan, const Schedule& schedule) {
     while (end < schedule.times.size() && schedule.times[end].site == schedule.times[begin].site)
       ++end;
     for (size_t t = 0; t < job.air.turbidity.size(); ++t)
-      for (size_t a = 0; a < job.air.ground_albedo.size(); ++a)
+      for (size_t a = 0; a < job.air.ground_albedo.size(); ++a) {
+        const auto at_horizon = sky_at_horizon(job, int(t), int(a));
+        if (!at_horizon) return at_horizon.error();
         for (size_t c = 0; c < job.cameras.size(); ++c, ++sequence)
           for (size_t i = begin; i < end; ++i) {
             Frame frame;
@@ -95,12 +98,14 @@ void add_frames(Plan& plan, const Schedule& schedule) {
             frame.instant = schedule.times[i].instant;
             frame.local = schedule.times[i].local;
             frame.sky = skies[i];
-            frame.sun = sun_for_sky(skies[i], job.air.refraction);
+            frame.sun = sun_for_sky(skies[i], job.air.refraction, *at_horizon);
             frame.paths.resize(job.outputs.size());
             plan.frames.push_back(std::move(frame));
           }
+      }
     begin = end;
   }
+  return Done{};
 }
 
 }  // namespace
@@ -119,7 +124,8 @@ Result<Plan, Diagnostics> make_plan(config::JobConfig job) {
   plan.model_reason = plan.job.sky.model == config::SkyModel::automatic
                           ? "hosek-wilkie: the sky model for an observer on the ground"
                           : "hosek-wilkie: asked for by sky.model";
-  add_frames(plan, *schedule);
+  const Status added = add_frames(plan, *schedule);
+  if (!added) return Diagnostics{added.error()};
   for (size_t o = 0; o < plan.job.outputs.size(); ++o) number_paths(plan, o);
   if (auto collision = find_collision(plan)) return Diagnostics{*collision};
   const Status exposed = plan_exposure(plan);

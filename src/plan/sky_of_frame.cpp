@@ -1,5 +1,7 @@
 #include "plan/sky_of_frame.h"
 
+#include "core/constants.h"
+
 namespace skylapse::plan {
 
 sky::AlbedoSpectrum ground_of_frame(const config::JobConfig& job, const Frame& frame) {
@@ -7,6 +9,15 @@ sky::AlbedoSpectrum ground_of_frame(const config::JobConfig& job, const Frame& f
   if (albedo.spectral)
     if (const auto bands = sky::albedo_bands(albedo.name)) return *bands;
   return sky::grey_bands(albedo.value);
+}
+
+Result<Illuminance> sky_at_horizon(const config::JobConfig& job, int turbidity, int albedo) {
+  Frame frame;
+  frame.turbidity = turbidity, frame.albedo = albedo;
+  frame.sky.sun_radius = kSolarRadiusAt1Au;
+  const auto sky = sky_of_frame(job, frame);
+  if (!sky) return sky.error();
+  return sky->diffuse_irradiance_xyz().y * kLuminousEfficacy * lux;
 }
 
 Result<sky::hosek_wilkie::Sky> sky_of_frame(const config::JobConfig& job, const Frame& frame) {

@@ -18,7 +18,8 @@ Angle true_elevation_of_apparent_horizon(const astro::RefractionConditions& refr
   return high * deg;
 }
 
-SunForSky sun_for_sky(const astro::SkyState& sky, const astro::RefractionConditions& refraction) {
+SunForSky sun_for_sky(const astro::SkyState& sky, const astro::RefractionConditions& refraction,
+                      Illuminance sky_at_horizon) {
   SunForSky sun;
   const Angle apparent = elevation(sky.sun_apparent);
   sun.extrapolated = apparent < 0 * deg;
@@ -26,8 +27,8 @@ SunForSky sun_for_sky(const astro::SkyState& sky, const astro::RefractionConditi
   sun.direction =
       sun.extrapolated ? enu_direction(azimuth(sky.sun_apparent), 0 * deg) : sky.sun_apparent;
   if (sun.extrapolated)
-    sun.twilight_level = sky::twilight_level(elevation(sky.sun_true),
-                                             true_elevation_of_apparent_horizon(refraction));
+    sun.twilight_level = sky::twilight_level(
+        elevation(sky.sun_true), true_elevation_of_apparent_horizon(refraction), sky_at_horizon);
   const double au = 1 * astronomical_unit / sky.sun_distance;
   sun.distance_factor = au * au;
   return sun;

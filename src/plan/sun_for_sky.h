@@ -16,6 +16,8 @@ struct SunForSky {
 /// True elevation at which the sun's centre appears on the horizon (0 without refraction).
 Angle true_elevation_of_apparent_horizon(const astro::RefractionConditions& refraction);
 
-SunForSky sun_for_sky(const astro::SkyState& sky, const astro::RefractionConditions& refraction);
+/// `sky_at_horizon` is the model's own illuminance, sky alone, at sun elevation 0.
+SunForSky sun_for_sky(const astro::SkyState& sky, const astro::RefractionConditions& refraction,
+                      Illuminance sky_at_horizon);
 
 }  // namespace skylapse::plan

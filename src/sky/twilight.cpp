@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace skylapse::sky {
@@ -35,58 +36,109 @@ double published_log10(double elevation_deg) {
   return sum / count;
 }
 
-struct Node {
-  double elevation_deg, log10_lux, slope;
+/// Monotone cubic interpolation through points (Fritsch and Butland 1984): the slope at a node is
+/// the weighted harmonic mean of its neighbours'. Zero at the first node, so that the curve runs
+/// smoothly into the constant that it is outside its nodes.
+class MonotoneCurve {
+ public:
+  void add(double x, double y) { nodes_.push_back({x, y, 0}); }
+
+  void fit() {
+    const auto secant = [&](size_t i) {
+      return (nodes_[i + 1].y - nodes_[i].y) / (nodes_[i + 1].x - nodes_[i].x);
+    };
+    for (size_t i = 1; i + 1 < nodes_.size(); ++i) {
+      const double before = nodes_[i].x - nodes_[i - 1].x;
+      const double after = nodes_[i + 1].x - nodes_[i].x;
+      const double weight = (before + 2 * after) / (3 * (before + after));
+      if (secant(i - 1) * secant(i) > 0)  // at an extremum the slope stays 0
+        nodes_[i].slope = 1 / (weight / secant(i - 1) + (1 - weight) / secant(i));
+    }
+    nodes_.back().slope = secant(nodes_.size() - 2);
+  }
+
+  [[nodiscard]] double at(double x) const {
+    x = std::clamp(x, nodes_.front().x, nodes_.back().x);
+    const auto above = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, x,
+                                        [](double v, const Node& n) { return v < n.x; });
+    const Node& a = *(above - 1);
+    const Node& b = *above;
+    const double width = b.x - a.x;
+    const double t = (x - a.x) / width;
+    const double rise = 3 * t * t - 2 * t * t * t;
+    return (1 - rise) * a.y + rise * b.y +
+           width * (t * (1 - t) * (1 - t) * a.slope - t * t * (1 - t) * b.slope);
+  }
+
+ private:
+  struct Node {
+    double x, y, slope;
+  };
+  std::vector<Node> nodes_;
 };
 
-/// Monotone cubic interpolation (Fritsch and Butland 1984): the slope at a node is the weighted
-/// harmonic mean of its neighbours'. Zero at -18 deg, so the curve runs smoothly into a constant.
-std::vector<Node> make_curve() {
-  std::vector<Node> nodes;
-  auto add = [&](double h) { nodes.push_back({h, published_log10(h), 0}); };
+MonotoneCurve make_illuminance_curve() {
+  MonotoneCurve curve;
+  const auto add = [&](double h) { curve.add(h, published_log10(h)); };
   for (double h = -18; h < -1; h += 0.5) add(h);
   add(-0.8);
   for (double h = -0.5; h < 10; h += 0.5) add(h);
   for (double h = 10; h <= 90; h += 2.5) add(h);
-  auto secant = [&](size_t i) {
-    return (nodes[i + 1].log10_lux - nodes[i].log10_lux) /
-           (nodes[i + 1].elevation_deg - nodes[i].elevation_deg);
-  };
-  for (size_t i = 1; i + 1 < nodes.size(); ++i) {
-    const double before = nodes[i].elevation_deg - nodes[i - 1].elevation_deg;
-    const double after = nodes[i + 1].elevation_deg - nodes[i].elevation_deg;
-    const double weight = (before + 2 * after) / (3 * (before + after));
-    nodes[i].slope = 1 / (weight / secant(i - 1) + (1 - weight) / secant(i));
-  }
-  nodes.back().slope = secant(nodes.size() - 2);
-  return nodes;
+  curve.fit();
+  return curve;
 }
 
-double curve_log10(double elevation_deg) {
-  static const std::vector<Node> nodes = make_curve();
-  const double h =
-      std::clamp(elevation_deg, nodes.front().elevation_deg, nodes.back().elevation_deg);
-  const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, h,
-                                      [](double v, const Node& n) { return v < n.elevation_deg; });
-  const Node& a = *(above - 1);
-  const Node& b = *above;
-  const double width = b.elevation_deg - a.elevation_deg;
-  const double t = (h - a.elevation_deg) / width;
-  const double rise = 3 * t * t - 2 * t * t * t;
-  return (1 - rise) * a.log10_lux + rise * b.log10_lux +
-         width * (t * (1 - t) * (1 - t) * a.slope - t * t * (1 - t) * b.slope);
+double log10_illuminance(double elevation_deg) {
+  static const MonotoneCurve curve = make_illuminance_curve();
+  return curve.at(elevation_deg);
+}
+
+/// Depression at which the continued sky has reached the published illuminance.
+constexpr Angle kBlendDepression = 6 * deg;
+
+/// log10 of published illuminance over that of the sky alone, by sun elevation. Above the horizon
+/// the spectral Hosek-Wilkie sky at turbidity 2.5 and albedo 0.2 (tested to 1 %), below it 1.
+MonotoneCurve make_sky_share_curve() {
+  constexpr std::array<std::array<double, 2>, 14> kRatios{{{-6, 1.0},
+                                                           {0, 0.3224},
+                                                           {1, 0.3867},
+                                                           {2, 0.4601},
+                                                           {5, 0.7163},
+                                                           {10, 1.2653},
+                                                           {15, 1.8214},
+                                                           {20, 2.2936},
+                                                           {30, 3.3319},
+                                                           {40, 4.4624},
+                                                           {50, 5.5005},
+                                                           {60, 6.2846},
+                                                           {75, 6.8969},
+                                                           {90, 7.2115}}};
+  MonotoneCurve curve;
+  for (const auto& [elevation_deg, ratio] : kRatios) curve.add(elevation_deg, std::log10(ratio));
+  curve.fit();
+  return curve;
 }
 
 }  // namespace
 
 Illuminance clear_sky_illuminance(Angle true_sun_elevation) {
-  return std::pow(10.0, curve_log10(true_sun_elevation.in(deg))) * lux;
+  return std::pow(10.0, log10_illuminance(true_sun_elevation.in(deg))) * lux;
 }
 
-double twilight_level(Angle true_elevation, Angle horizon_true_elevation) {
+Luminance mean_clear_sky_luminance(Angle true_sun_elevation) {
+  static const MonotoneCurve share = make_sky_share_curve();
+  const double h = true_sun_elevation.in(deg);
+  return std::pow(10.0, log10_illuminance(h) - share.at(h)) / std::numbers::pi * cd_per_m2;
+}
+
+double twilight_level(Angle true_elevation, Angle horizon_true_elevation,
+                      Illuminance sky_at_horizon) {
   if (true_elevation >= horizon_true_elevation) return 1.0;
-  return std::pow(
-      10.0, curve_log10(true_elevation.in(deg)) - curve_log10(horizon_true_elevation.in(deg)));
+  const double at_horizon = log10_illuminance(horizon_true_elevation.in(deg));
+  const double fall = log10_illuminance(true_elevation.in(deg)) - at_horizon;
+  const double t = std::min(1.0, (horizon_true_elevation - true_elevation) / kBlendDepression);
+  const double blend = t * t * (3 - 2 * t);
+  return std::pow(10.0, fall + blend * (at_horizon - std::log10(sky_at_horizon.in(lux))));
 }
 
 }  // namespace skylapse::sky

@@ -15,9 +15,18 @@ namespace skylapse::sky {
 ///          curve bends into the constant (tested).
 Illuminance clear_sky_illuminance(Angle true_sun_elevation);
 
-/// Factor on the sky of sun elevation 0 when the sun's true elevation is `true_elevation`:
-/// E(h) / E(h0) below h0, the true elevation at which the sky model sees the sun on the horizon;
-/// 1 from there up. Continuous and monotone.
-double twilight_level(Angle true_elevation, Angle horizon_true_elevation);
+/// Mean luminance of a clear sky, as a camera's meter that looks at the sky would see it: the
+/// illuminance by the sky alone, divided by pi. Above the horizon that of the Hosek-Wilkie sky
+/// (turbidity 2.5, albedo 0.2); from -6 deg down the published illuminance; smooth between.
+Luminance mean_clear_sky_luminance(Angle true_sun_elevation);
+
+/// Factor on the sky of sun elevation 0 when the sun's true elevation h is below h0, at which the
+/// sky model sees the sun on the horizon; 1 from h0 up. The sky keeps its shape and loses light as
+/// the published illuminance does, E(h) / E(h0). `sky_at_horizon` is the model's own illuminance
+/// at h0 (Hosek-Wilkie gives about three times the measured one): over the first 6 degrees the
+/// factor also takes up that difference, so that from there down the illuminance is E(h).
+/// Continuous with its slope; monotone for sky_at_horizon above a tenth of E(h0).
+double twilight_level(Angle true_elevation, Angle horizon_true_elevation,
+                      Illuminance sky_at_horizon);
 
 }  // namespace skylapse::sky

@@ -35,23 +35,23 @@ TEST(ExposurePlan, MeteredExposureKeepsItsRateLimit) {
     EXPECT_LE(std::abs(plan.frames[i].ev - plan.frames[i - 1].ev), 0.1 * 5 + 1e-12);
 }
 
-TEST(ExposurePlan, TheMeterReadsTheModelsOwnIlluminance) {
+TEST(ExposurePlan, TheMeterReadsTheModelsOwnSky) {
   const auto plan = plan_of(whole_day("mode: metered, rate_limit: 100"));
   for (const auto& frame : plan.frames) {
-    const auto light = plan::model_illuminance(plan.job, frame);
+    const auto light = plan::model_sky_luminance(plan.job, frame);
     ASSERT_TRUE(light.ok());
     EXPECT_NEAR(frame.ev, color::metered_ev(*light), 1e-12);
   }
 }
 
-TEST(ExposurePlan, DaylightIlluminanceIsWithinTheClearSkyRange) {
-  // Clear noon at 63 deg: direct and diffuse light together give 80-120 klx on the ground.
+TEST(ExposurePlan, NoonSkyLuminanceIsThatOfAClearSky) {
+  // Clear skies with the sun at 63 deg give 8-25 klx of diffuse light, 3-8 kcd/m^2 on the mean.
   auto scene = whole_day("mode: metered");
   scene.time = "time: {zone: Europe/Prague, date: 2026-06-21, at: [solar_noon]}";
   const auto plan = plan_of(scene);
-  const double klx = plan::model_illuminance(plan.job, plan.frames[0])->in(lux) / 1000;
-  EXPECT_GT(klx, 70);
-  EXPECT_LT(klx, 120);
+  const double l = plan::model_sky_luminance(plan.job, plan.frames[0])->in(cd_per_m2);
+  EXPECT_GT(l, 3000);
+  EXPECT_LT(l, 8000);
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+
+#include "sky/hosek_wilkie/sky.h"
 
 namespace skylapse::sky {
 namespace {
@@ -74,17 +77,43 @@ TEST(Twilight, StaysAtTheNightValueBelowMinusEighteenDegrees) {
   EXPECT_EQ(lux_at(-18), lux_at(-90));
 }
 
-TEST(Twilight, LevelIsOneAtTheHorizonAndFollowsTheIlluminanceBelow) {
+TEST(Twilight, LevelIsOneAtTheHorizonAndFallsSmoothlyToTheIlluminanceBelow) {
   const Angle horizon = -0.57 * deg;
-  EXPECT_EQ(twilight_level(horizon, horizon), 1.0);
-  EXPECT_EQ(twilight_level(20 * deg, horizon), 1.0);
-  EXPECT_NEAR(twilight_level(horizon - 1e-9 * deg, horizon), 1.0, 1e-8);
-  EXPECT_NEAR(twilight_level(-6 * deg, horizon), lux_at(-6) / lux_at(-0.57), 1e-12);
-  double previous = 1.0;
-  for (double h = -0.58; h > -18; h -= 0.01) {
-    const double level = twilight_level(h * deg, horizon);
-    EXPECT_LT(level, previous) << h;
-    previous = level;
+  for (const double model_lux : {500.0, 759.0, 2400.0, 5000.0}) {
+    const auto level = [&](double h) { return twilight_level(h * deg, horizon, model_lux * lux); };
+    EXPECT_EQ(level(-0.57), 1.0);
+    EXPECT_EQ(level(20), 1.0);
+    EXPECT_NEAR(level(-0.57 - 1e-9), 1.0, 1e-8);
+    for (const double h : {-6.57, -9.0, -12.0, -18.0, -40.0})
+      EXPECT_NEAR(model_lux * level(h) / lux_at(h), 1, 1e-12) << h;
+    double previous = 1.0;
+    for (double h = -0.58; h > -18; h -= 0.01) {
+      EXPECT_LT(level(h), previous) << h;
+      EXPECT_GT(level(h), previous * 0.98) << "a step at " << h;
+      previous = level(h);
+    }
+  }
+}
+
+// The table inside is the model's own diffuse light; between its nodes 3 % is far below what an
+// exposure could show (0.04 stops).
+TEST(Twilight, MeanLuminanceIsThatOfTheSkyModel) {
+  for (double h = 0; h <= 90; h += 2.5) {
+    const auto sky =
+        hosek_wilkie::Sky::make(hosek_wilkie::Fit::spectral, hosek_wilkie::SolarFlux::reference,
+                                2.5, grey_bands(0.2), h * deg);
+    const double model = 683 * sky->diffuse_irradiance_xyz().y / std::numbers::pi;
+    EXPECT_NEAR(mean_clear_sky_luminance(h * deg).in(cd_per_m2) / model, 1, 0.03) << h;
+  }
+}
+
+TEST(Twilight, MeanLuminanceRisesWithTheSunWithoutAStep) {
+  double previous = mean_clear_sky_luminance(-19 * deg).in(cd_per_m2);
+  for (double h = -18.99; h <= 90; h += 0.01) {
+    const double now = mean_clear_sky_luminance(h * deg).in(cd_per_m2);
+    EXPECT_GE(now, previous * (1 - 1e-12)) << h;
+    EXPECT_LT(now, previous * 1.02) << h;
+    previous = now;
   }
 }
 

@@ -30,7 +30,7 @@ Result<image::FrameBuffer> resized(const image::FrameBuffer& image, int width, i
 Status draw_text(image::FrameBuffer& image, int x, int y, int height, const std::string& text) {
   OIIO::ImageBuf target(spec_of(image.width(), image.height()), image.data().data());
   const float white[] = {1, 1, 1};
-  if (!OIIO::ImageBufAlgo::render_text(target, x, y, text, height, "", white))
+  if (!OIIO::ImageBufAlgo::render_text(target, x, y, text, height, "DejaVuSans", white))
     (void)target.geterror();  // no font here: the sheet goes without labels
   return Done{};
 }
