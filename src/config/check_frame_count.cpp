@@ -16,7 +16,9 @@ double days_in(const DateRange& range) {
 /// An upper bound of the time from `from` to `to`: exact for clock times, and for events of the sun
 /// as if they could lie anywhere in their day.
 double longest_span_s(const TimePlan& time) {
-  if (!time.from || !time.to) return 86400;
+  const bool comparable =
+      time.from && time.to && time.from->date.has_value() == time.to->date.has_value();
+  if (!comparable) return 86400;
   const auto edge = [](const TimeExpression& t, double anywhere) {
     const double day =
         t.date ? double(std::chrono::sys_days(*t.date).time_since_epoch().count()) : 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "config/value_reader.h"
 
@@ -19,20 +20,21 @@ std::string key_list(const SectionSpec& spec) {
   return list;
 }
 
-void report_unknown_key(const MapEntry& entry, const SectionSpec& spec, const std::string& path,
-                        ReadContext& context) {
-  std::string hint;
-  if (!context.errors.full()) {
+/// Returns the key that was probably meant.
+std::optional<std::string> report_unknown_key(const MapEntry& entry, const SectionSpec& spec,
+                                              const std::string& path, ReadContext& context) {
+  std::optional<std::string> nearest;
+  if (!context.errors.full() && entry.key.size() <= 40) {
     std::vector<std::string> names;
     for (const KeySpec& key : spec.keys) names.emplace_back(key.name);
-    const auto nearest = entry.key.size() <= 40 ? nearest_name(entry.key, names) : std::nullopt;
-    hint = nearest ? fmt::format("did you mean {}?", *nearest)
-                   : fmt::format("known keys: {}", key_list(spec));
+    nearest = nearest_name(entry.key, names);
   }
   context.errors.add(
       entry.key_place,
       fmt::format("the key \"{}\" is not known {}", entry.key.substr(0, 60), in_section(path)),
-      hint);
+      nearest ? fmt::format("did you mean {}?", *nearest)
+              : fmt::format("known keys: {}", key_list(spec)));
+  return nearest;
 }
 
 std::string example_line(const KeySpec& key) {
@@ -40,13 +42,17 @@ std::string example_line(const KeySpec& key) {
                              : fmt::format("add \"{}: {}\"", key.name, key.example);
 }
 
-void report_missing(const Section& section, ReadContext& context) {
+/// `meant` are keys that are there, but for a slip: they are not missing on top.
+void report_missing(const Section& section, const std::set<std::string, std::less<>>& meant,
+                    ReadContext& context) {
   for (const KeySpec& key : section.spec->keys)
-    if (key.required && !section.has(key.name))
+    if (key.required && !section.has(key.name) && !meant.contains(key.name))
       context.errors.add(section.place, fmt::format("{} is missing", section.path_of(key.name)),
                          example_line(key));
   for (const Alternatives& group : section.spec->alternatives) {
     const std::string_view* first = nullptr;
+    const bool any_meant = std::any_of(group.keys.begin(), group.keys.end(),
+                                       [&](std::string_view key) { return meant.contains(key); });
     for (const std::string_view& name : group.keys) {
       if (!section.has(name)) continue;
       if (first != nullptr)
@@ -57,7 +63,7 @@ void report_missing(const Section& section, ReadContext& context) {
       else
         first = &name;
     }
-    if (group.required && first == nullptr)
+    if (group.required && first == nullptr && !any_meant)
       context.errors.add(
           section.place,
           fmt::format("{} lacks one of {}", section.path.empty() ? "the job" : section.path,
@@ -211,10 +217,12 @@ Section read_section(const Node& node, const SectionSpec& spec, const std::strin
   section.spec = &spec;
   section.path = path;
   section.place = place;
+  std::set<std::string, std::less<>> meant;
   for (const MapEntry& entry : node.entries) {
     const KeySpec* key = find_key_spec(spec, entry.key);
     if (key == nullptr) {
-      report_unknown_key(entry, spec, path, context);
+      if (const auto nearest = report_unknown_key(entry, spec, path, context))
+        meant.insert(*nearest);
       continue;
     }
     const std::string key_path = section.path_of(key->name);
@@ -222,7 +230,7 @@ Section read_section(const Node& node, const SectionSpec& spec, const std::strin
     reader.read(entry.value);
     section.put(key->name, {entry.key_place, entry.value.place, std::move(reader.values)});
   }
-  report_missing(section, context);
+  report_missing(section, meant, context);
   return section;
 }
 

@@ -189,8 +189,8 @@ class TreeBuilder : public YAML::EventHandler {
     const Place place = place_at(mark);
     refuse_tag(tag, place);
     if (expects_key())
-      abandon(place, "a list or section cannot be a key",
-              "put text that holds any of { } [ ] in quotes");
+      abandon(place, "a list or section stands where a key belongs",
+              "close every [ and {, and put text that holds them in quotes");
     if (open_.size() >= size_t(limits_.depth)) too_deep(place);
     Open opened;
     opened.node.kind = kind;
