@@ -76,6 +76,8 @@ void add_colour(AttributeList& list, const FrameMetadata& f) {
   if (f.encoding == PixelEncoding::display) {
     list.text("skylapse:display", f.display);
     list.text("skylapse:view", f.view);
+    // Becomes the sRGB chunk of PNG and the Exif colour space of JPEG.
+    if (f.display.starts_with("sRGB")) list.text("oiio:ColorSpace", "sRGB");
     return;
   }
   const auto xy = color::exr_chromaticities(f.space);

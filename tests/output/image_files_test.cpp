@@ -173,6 +173,18 @@ TEST(ImageFiles, PngKeepsNumbersAsText) {
   EXPECT_TRUE(has("isoSpeed", "100"));
 }
 
+TEST(ImageFiles, PngOfAnSrgbDisplayHasTheSrgbChunkAndNoTimeChunk) {
+  const auto c8 = codes<uint8_t>();
+  auto r = request("png", SampleType::u8, c8.data());
+  r.attributes = {{"oiio:ColorSpace", std::string("sRGB")},
+                  {"capDate", std::string("2026:06:21 12:00:00")}};
+  const auto bytes = encoded(r);
+  const std::string file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  EXPECT_NE(file.find("sRGB"), std::string::npos);
+  EXPECT_EQ(file.find("tIME"), std::string::npos);
+  EXPECT_NE(file.find("2026:06:21 12:00:00"), std::string::npos);
+}
+
 TEST(ImageFiles, WrongRequestsAreRefusedWithWhatIsPossible) {
   const auto rgb = gradient();
   const auto refused = [](const EncodeRequest& r) {

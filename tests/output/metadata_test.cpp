@@ -85,6 +85,9 @@ TEST(FrameAttributes, ExposedAndDisplayPixelsClaimNoLuminance) {
   EXPECT_EQ(find(all, "whiteLuminance"), nullptr);
   EXPECT_EQ(find(all, "chromaticities"), nullptr);
   EXPECT_EQ(get<std::string>(all, "skylapse:view"), "ACES SDR");
+  EXPECT_EQ(get<std::string>(all, "oiio:ColorSpace"), "sRGB");
+  f.display = "P3-D65";
+  EXPECT_EQ(find(frame_attributes(f), "oiio:ColorSpace"), nullptr);
 }
 
 TEST(FrameAttributes, ExposureTimeMatchesTheEvAtItsAperture) {

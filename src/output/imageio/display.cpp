@@ -36,10 +36,10 @@ class OcioDisplay final : public DisplayTransform {
   }
 
  private:
-  /// Infinite radiance must come out white: the transforms' own sums would make it Inf - Inf, and
-  /// show it black like NaN.
+  /// Infinite radiance must come out white: the squares within the transforms would overflow and
+  /// show it black, like NaN.
   static void limit(float* samples, size_t count) {
-    constexpr float kFar = 1e30f;
+    constexpr float kFar = 1e12f;  // its square is still finite; the sun is 1e9 at most
     for (size_t i = 0; i < count; ++i)
       samples[i] = samples[i] > kFar ? kFar : (samples[i] < -kFar ? -kFar : samples[i]);
   }
