@@ -18,7 +18,7 @@ namespace skylapse::sky::hosek_wilkie {
 /// All XYZ values use the CIE 1931 functions without normalisation: W m^-2 sr^-1 (or W m^-2), and
 /// 683 Y is luminance in cd/m^2 (or illuminance in lux). For Fit::spectral they are the 1 nm sum
 /// over 360..830 nm of the bands, linear between them; from 720 to 830 nm the value of 720 nm is
-/// held (0.03 % of the weight of Y, 0.1 % of X).
+/// held (0.02 % of the weight of Y, 0.05 % of X).
 class Sky {
  public:
   /// Errors (invalid_input): turbidity outside 1..10, albedo outside 0..1, sun elevation outside
