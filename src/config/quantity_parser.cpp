@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -180,6 +181,7 @@ Result<long, Problem> parse_integer(std::string_view text) {
 Result<double, Problem> parse_quantity(std::string_view text, Dimension dimension) {
   const std::string plain = plain_text(text);
   const DimensionInfo& info = info_of(dimension);
+  assert(!info.units.empty());
   std::string_view rest = plain;
   std::optional<int> hemisphere;
   if (dimension == Dimension::latitude || dimension == Dimension::longitude) {

@@ -41,7 +41,8 @@ inline std::vector<std::string> errors_of(const std::string& text,
   if (job) return lines;
   for (const Error& e : job.error()) {
     const std::string file = e.span.file == "job.yaml" ? "" : e.span.file + ":";
-    lines.push_back(fmt::format("{}{} [{}] {} | {}", file, e.span.line, underlined(e.span), e.message, e.hint));
+    lines.push_back(
+        fmt::format("{}{} [{}] {} | {}", file, e.span.line, underlined(e.span), e.message, e.hint));
   }
   return lines;
 }

@@ -1,0 +1,148 @@
+// The table of keys is true: to itself, to the defaults in the structs, and to docs/config.md.
+#include "config/key_reference.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "config/job_text.h"
+#include "config/key_spec.h"
+#include "config/quantity_parser.h"
+
+namespace skylapse::config {
+namespace {
+
+using test::kSmallJob;
+using test::with;
+
+void for_each_section(const SectionSpec& section, const auto& visit,
+                      std::set<const SectionSpec*>& seen) {
+  if (!seen.insert(&section).second) return;
+  visit(section);
+  for (const KeySpec& key : section.keys)
+    for (const SectionSpec* below : key.sections) for_each_section(*below, visit, seen);
+}
+
+void for_each_section(const auto& visit) {
+  std::set<const SectionSpec*> seen;
+  for_each_section(job_spec(), visit, seen);
+  EXPECT_EQ(seen.size(), 12u);
+}
+
+TEST(KeyTable, EveryKeyIsExplainedAndNamedOnce) {
+  for_each_section([](const SectionSpec& section) {
+    std::set<std::string_view> names;
+    EXPECT_FALSE(section.doc.empty()) << section.name;
+    for (const KeySpec& key : section.keys) {
+      EXPECT_TRUE(names.insert(key.name).second) << section.name << "." << key.name;
+      EXPECT_FALSE(key.doc.empty()) << section.name << "." << key.name;
+    }
+    for (const Alternatives& group : section.alternatives)
+      for (const std::string_view key : group.keys) EXPECT_TRUE(names.contains(key)) << key;
+  });
+}
+
+TEST(KeyTable, RangesAreWrittenInTheirUnitsAndInOrder) {
+  for_each_section([](const SectionSpec& section) {
+    for (const KeySpec& key : section.keys) {
+      const bool needs_range = key.kind == ValueKind::quantity || key.kind == ValueKind::number ||
+                               key.kind == ValueKind::integer || key.kind == ValueKind::azimuth;
+      if (!needs_range) continue;
+      if (key.dimension == Dimension::none) {
+        EXPECT_LT(*parse_number(key.min), *parse_number(key.max))
+            << section.name << "." << key.name;
+        continue;
+      }
+      const auto low = parse_quantity(key.min, key.dimension),
+                 high = parse_quantity(key.max, key.dimension);
+      ASSERT_TRUE(low.ok() && high.ok()) << section.name << "." << key.name;
+      EXPECT_LT(*low, *high) << section.name << "." << key.name;
+    }
+  });
+}
+
+/// The parts of a job that have defaults, as text.
+std::string summary(const JobConfig& job) {
+  const auto& camera = job.cameras.at(0).camera;
+  std::string text = fmt::format(
+      "{} {} {} {} | {} {} {} {} {} | {} {} {} {} | {} {} | {} {} {} {} | {} {}",
+      job.sites[0].position.height.in(metre), job.time.dut1.in(second),
+      job.time.from->clock->count(), job.time.to->clock->count(), job.air.turbidity[0].value,
+      job.air.ground_albedo[0].value.value, job.air.refraction.enabled,
+      job.air.refraction.pressure.in(hPa), job.air.refraction.temperature.in(degC),
+      int(job.sky.fit), int(job.sky.solar_flux), job.sky.sun_disc, int(job.sky.sun_algorithm),
+      int(camera.projection), int(camera.cube_layout), int(job.exposure.mode), job.exposure.ev,
+      job.exposure.compensation, job.exposure.rate_limit, job.color.space, job.allow_outside_paths);
+  for (const Output& output : job.outputs) {
+    if (const auto* image = std::get_if<ImageOutput>(&output))
+      text += fmt::format(" | {} {} {} {}", int(image->sample_type), int(image->sun_policy),
+                          image->quality, image->compression);
+    if (const auto* movie = std::get_if<MovieOutput>(&output))
+      text += fmt::format(" | {} {}", movie->frames_per_second, movie->crf);
+  }
+  return text;
+}
+
+TEST(KeyTable, WritingADefaultChangesNothing) {
+  const std::string job_text =
+      with(kSmallJob, "[{image: sky.####.png}]",
+           "[{image: sky.####.exr, type: half}, {image: sky.####.jpg}, {movie: day.mp4}]");
+  size_t written = 0;
+  for_each_section([&](const SectionSpec& section) {
+    for (const KeySpec& key : section.keys) {
+      const std::string name(key.name), spec(section.name);
+      // Names have a numbered default, and these keys belong to other projections or modes.
+      if (key.default_text.empty() || name == "name" || name == "layout" || name == "ev" ||
+          name == "rate_limit" || spec == "dates" || spec == "look_at")
+        continue;
+      const std::string path = spec.empty() ? name
+                               : spec == "image output"
+                                   ? (name == "quality" ? "outputs.1." : "outputs.0.") + name
+                               : spec == "movie output" ? "outputs.2." + name
+                                                        : spec + "." + name;
+      const auto plain = parse_job(job_text, "job.yaml");
+      const auto changed = parse_job(job_text, "job.yaml", {{path, std::string(key.default_text)}});
+      ASSERT_TRUE(plain.ok()) << test::error_of(job_text);
+      ASSERT_TRUE(changed.ok()) << test::error_of(job_text,
+                                                  {{path, std::string(key.default_text)}});
+      EXPECT_EQ(summary(*plain), summary(*changed)) << path;
+      ++written;
+    }
+  });
+  EXPECT_GE(written, 20u);
+  EXPECT_EQ(
+      color::ExposureSettings{}.ev,
+      *parse_quantity(
+          find_key_spec(*find_key_spec(job_spec(), "exposure")->sections[0], "ev")->default_text,
+          Dimension::exposure_value));
+  EXPECT_EQ(color::ExposureSettings{}.rate_limit,
+            *parse_quantity(
+                find_key_spec(*find_key_spec(job_spec(), "exposure")->sections[0], "rate_limit")
+                    ->default_text,
+                Dimension::exposure_rate));
+}
+
+/// Set SKYLAPSE_UPDATE_DOCS=1 to write the table anew.
+TEST(KeyTable, TheDocsHoldItAsItIs) {
+  const std::string file = SKYLAPSE_SOURCE_DIR "/docs/config.md";
+  const std::string begin = "<!-- key table: begin -->\n\n", end = "<!-- key table: end -->\n";
+  std::ostringstream stream;
+  stream << std::ifstream(file).rdbuf();
+  const std::string text = stream.str();
+  const size_t first = text.find(begin), last = text.find(end);
+  ASSERT_NE(first, std::string::npos) << file;
+  ASSERT_NE(last, std::string::npos) << file;
+  const std::string table = text.substr(first + begin.size(), last - first - begin.size());
+  if (std::getenv("SKYLAPSE_UPDATE_DOCS") != nullptr)
+    std::ofstream(file) << text.substr(0, first + begin.size()) << key_reference_markdown()
+                        << text.substr(last);
+  else
+    EXPECT_EQ(table, key_reference_markdown())
+        << "the table in docs/config.md is old: run this test with SKYLAPSE_UPDATE_DOCS=1";
+}
+
+}  // namespace
+}  // namespace skylapse::config
