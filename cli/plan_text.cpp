@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "cli/table.h"
 #include "core/parallel.h"
@@ -40,28 +41,27 @@ Table frame_table(const PlannedWork& work) {
   return table;
 }
 
-/// Each decision with its reason, and the frames it holds for.
+/// Each effect with the frames it is on and off for, and one reason for each kind of decision
+/// (reasons that differ in their numbers alone count as one kind).
 std::string effect_summary(const PlannedWork& work) {
-  struct Count {
-    long on = 0, off = 0;
-    std::string why_on, why_off;
+  struct Kind {
+    long frames = 0;
+    std::string first_reason;
   };
-  std::map<plan::Effect, Count> counts;
+  std::map<std::tuple<plan::Effect, bool, std::string>, Kind> kinds;
   for (const long number : work.frames)
     for (const auto& d : plan::decide_effects(work.plan.job, work.plan.frames[number - 1])) {
-      Count& count = counts[d.effect];
-      (d.on ? count.on : count.off) += 1;
-      std::string& why = d.on ? count.why_on : count.why_off;
-      if (why.empty()) why = d.reason;
+      std::string wording;
+      for (const char c : d.reason)
+        if (std::string_view("0123456789.-+e").find(c) == std::string_view::npos) wording += c;
+      Kind& kind = kinds[{d.effect, !d.on, wording}];
+      if (kind.frames++ == 0) kind.first_reason = d.reason;
     }
   std::string text;
-  for (const auto& [effect, count] : counts) {
-    text += fmt::format("  {:<22}", name_of(effect));
-    if (count.on) text += fmt::format(" on in {} frames ({})", count.on, count.why_on);
-    if (count.on && count.off) text += ";";
-    if (count.off) text += fmt::format(" off in {}, error bound 0 ({})", count.off, count.why_off);
-    text += "\n";
-  }
+  for (const auto& [key, kind] : kinds)
+    text += fmt::format("  {:<22} {:<3} in {:>4} frames: {}{}\n", name_of(std::get<0>(key)),
+                        std::get<1>(key) ? "off" : "on", kind.frames, kind.first_reason,
+                        std::get<1>(key) ? "; error bound 0" : "");
   return text;
 }
 

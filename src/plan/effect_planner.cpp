@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace skylapse::plan {
@@ -55,6 +56,24 @@ std::vector<Direction<Enu>> limb_points(const Direction<Enu>& sun, Angle r) {
   return points;
 }
 
+/// Points along the edge of what the camera sees: the image's sides, or the fisheye circle.
+std::vector<image::PixelPosition> outline(const image::Camera& camera) {
+  constexpr int kPoints = 64;
+  const double w = camera.width, h = camera.height;
+  std::vector<image::PixelPosition> points;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double t = double(i) / kPoints;
+    if (camera.projection == image::Projection::perspective) {
+      points.insert(points.end(), {{t * w, h}, {t * w, 0}, {0, t * h}, {w, t * h}});
+    } else {
+      const double radius = 0.4999 * std::min(w, h);
+      const Angle a = t * 360 * deg;
+      points.push_back({0.5 * w + radius * sin(a), 0.5 * h + radius * cos(a)});
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
 std::string name_of(Effect effect) {
@@ -85,13 +104,12 @@ bool ground_in_view(const image::Camera& camera) {
   if (camera.projection == image::Projection::lat_long ||
       camera.projection == image::Projection::cube)
     return true;
-  const int columns = std::min(camera.width, 64), rows = std::min(camera.height, 64);
-  for (int j = 0; j <= rows; ++j)
-    for (int i = 0; i <= columns; ++i) {
-      const auto d = image::direction_at(
-          camera, {double(camera.width) * i / columns, double(camera.height) * j / rows});
-      if (d && d->z() < 0) return true;
-    }
+  // Elevation has no minimum on the sphere but the nadir: look there and along the outline.
+  if (image::position_of(camera, enu_direction(0 * deg, -90 * deg))) return true;
+  for (const image::PixelPosition& position : outline(camera)) {
+    const auto d = image::direction_at(camera, position);
+    if (d && d->z() < 0) return true;
+  }
   return false;
 }
 

@@ -54,15 +54,6 @@ std::string expand_number(const std::string& path, long number) {
          path.substr(first + length);
 }
 
-const std::vector<std::string>& path_tokens() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const auto& token : kTokens) all.emplace_back(token.first);
-    return all;
-  }();
-  return names;
-}
-
 const std::vector<std::string>& face_names() {
   static const std::vector<std::string> names{"px", "nx", "py", "ny", "pz", "nz"};
   return names;

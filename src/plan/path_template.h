@@ -17,9 +17,6 @@ std::string expand_tokens(const std::string& path, const PathValues& values);
 /// Puts `number` into the run of '#' (zero-padded to its length; longer numbers stay whole).
 std::string expand_number(const std::string& path, long number);
 
-/// Names of the tokens, for messages.
-const std::vector<std::string>& path_tokens();
-
 /// The six values of {face} in the order +X -X +Y -Y +Z -Z.
 const std::vector<std::string>& face_names();
 

@@ -47,10 +47,10 @@ TEST(Ledger, ATornLineCostsOnlyItself) {
       << "{\"path\":\"b.png\",\"finger";
   auto again = Ledger::open(folder.path(), "all");
   ASSERT_TRUE(again->record(write_file(folder.path(), "c.png", "more", "f3")).ok());
-  again = Ledger::open(folder.path(), "all");
-  EXPECT_TRUE(again->finished("a.png", "f1").has_value());
-  EXPECT_TRUE(again->finished("c.png", "f3").has_value());
-  EXPECT_FALSE(again->find("b.png", "").has_value());
+  auto third = Ledger::open(folder.path(), "all");
+  EXPECT_TRUE(third->finished("a.png", "f1").has_value());
+  EXPECT_TRUE(third->finished("c.png", "f3").has_value());
+  EXPECT_FALSE(third->find("b.png", "").has_value());
 }
 
 TEST(Ledger, AnotherProcessesOldRecordDoesNotHideANewOne) {

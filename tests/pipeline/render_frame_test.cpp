@@ -64,11 +64,13 @@ TEST(RenderFrame, NoPixelOfAWholeDayIsNegativeOrNan) {
             "projection: fisheye, look_at: {azimuth: 0 deg, elevation: 90 deg}, fov: 200 deg, "
             "size: 64x64",
             "air: {turbidity: [1, 10], ground_albedo: [0, 1]}"));
-  for (size_t f = 0; f < plan.frames.size(); ++f)
-    for (const float v : render(plan, f).scene.data()) {
+  for (size_t f = 0; f < plan.frames.size(); ++f) {
+    const auto frame = render(plan, f);
+    for (const float v : frame.scene.data()) {
       ASSERT_TRUE(std::isfinite(v)) << "frame " << f;
       ASSERT_GE(v, 0) << "frame " << f;
     }
+  }
 }
 
 TEST(RenderFrame, BrightnessNeverJumpsFromMinuteToMinute) {
@@ -80,9 +82,12 @@ TEST(RenderFrame, BrightnessNeverJumpsFromMinuteToMinute) {
             "sky: {sun_disc: off}"));
   double last = 0;
   for (size_t f = 0; f < plan.frames.size(); ++f) {
-    const double now = luminance(render(plan, f).scene.pixel(4, 4));
+    const auto frame = render(plan, f);
+    const double now = luminance(frame.scene.pixel(4, 4));
     ASSERT_GT(now, 0);
-    if (f > 0) EXPECT_LT(std::abs(std::log2(now / last)), 0.4) << "frame " << f;
+    if (f > 0) {
+      EXPECT_LT(std::abs(std::log2(now / last)), 0.4) << "frame " << f;
+    }
     last = now;
   }
 }
@@ -92,7 +97,8 @@ TEST(RenderFrame, OnePixelWillDo) {
       scene("at: [solar_noon]",
             "projection: perspective, look_at: {azimuth: 180 deg, elevation: 45 deg}, fov: 60 deg, "
             "size: 1x1"));
-  EXPECT_GT(luminance(render(plan, 0).scene.pixel(0, 0)), 100);
+  const auto frame = render(plan, 0);
+  EXPECT_GT(luminance(frame.scene.pixel(0, 0)), 100);
 }
 
 }  // namespace

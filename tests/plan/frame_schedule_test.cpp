@@ -77,7 +77,7 @@ TEST(Schedule, ASkippedLocalTimeIsRefusedAtItsPlaceWithBothOffsets) {
 
 TEST(Schedule, ADayThatTheZoneSkipsIsPassedOverInsideARangeWithANote) {
   Scene scene = with_time(
-      "zone: Pacific/Apia, date: 2011-12-29 .. 2011-12-31, from: 12:00, to: 12:00, step: 1 h");
+      "zone: Pacific/Apia, dates: 2011-12-29 .. 2011-12-31, from: 12:00, to: 12:00, step: 1 h");
   scene.location = "location: {name: Apia, latitude: -13.8333, longitude: -171.767}";
   const auto plan = plan_of(scene);
   EXPECT_EQ(plan.frames.size(), 2u);
@@ -112,7 +112,7 @@ TEST(Schedule, AnIntervalThatEndsBeforeItBeginsIsRefused) {
 
 TEST(Schedule, SitesDaysAndListsMultiply) {
   Scene scene =
-      with_time("zone: UTC, date: 2026-06-01 .. 2026-06-03, from: 11:00, to: 12:00, step: 30 min");
+      with_time("zone: UTC, dates: 2026-06-01 .. 2026-06-03, from: 11:00, to: 12:00, step: 30 min");
   scene.location =
       "locations: [{name: A, latitude: 0, longitude: 0}, {name: B, latitude: 10, longitude: 0}]";
   scene.more = "air: {turbidity: [2, 4, 6], ground_albedo: [0.1, 0.5]}";

@@ -1,6 +1,9 @@
 #include "plan/path_template.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include "config/path_template.h"
 
 using namespace skylapse::plan;
 
@@ -27,4 +30,11 @@ TEST(PathTemplate, AValueThatLooksLikeATokenIsNotExpandedAgain) {
   values.site = "{date}";
   values.date = "2026-06-21";
   EXPECT_EQ(expand_tokens("{site}", values), "-date-");
+}
+
+TEST(PathTemplate, EveryTokenThatAConfigMayUseIsFilled) {
+  const PathValues values{"s", "d", "t", "c", "2", "a", "+1", "px"};
+  for (const std::string& token : skylapse::config::path_token_names())
+    EXPECT_EQ(expand_tokens(fmt::format("{{{}}}", token), values).find('{'), std::string::npos)
+        << token;
 }
