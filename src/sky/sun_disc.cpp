@@ -60,9 +60,10 @@ void set_flux(std::vector<LitPixel>& pixels, const glm::dvec3& target) {
 }
 
 /// Sets the ground's irradiance by a slight tilt of the light towards higher or lower pixels,
-/// which leaves the flux alone. The tilt changes no pixel by more than half of the mean: a disc
-/// within one or two rows of pixels cannot have both sums.
-void set_horizontal(std::vector<LitPixel>& pixels, const glm::dvec3& target) {
+/// which leaves the flux alone. The tilt is at most half of the mean light per pixel (`pixel_rad`)
+/// of elevation: a disc within one or two rows cannot have both sums, and neither along a row that
+/// bends a little nor at the zenith, where all pixels are equally high, is it worth any more.
+void set_horizontal(std::vector<LitPixel>& pixels, const glm::dvec3& target, double pixel_rad) {
   glm::dvec3 flux{0}, horizontal{0};
   double weight = 0, weighted_sine = 0;
   for (const LitPixel& p : pixels) {
@@ -73,16 +74,17 @@ void set_horizontal(std::vector<LitPixel>& pixels, const glm::dvec3& target) {
   }
   if (weight == 0) return;
   const double mean_sine = weighted_sine / weight;
-  double variance = 0, farthest = 0;
+  double variance = 0;
   for (const LitPixel& p : pixels) {
     const double offset = p.sine - mean_sine;
     variance += p.light.weight * offset * offset;
-    farthest = std::max(farthest, std::abs(offset));
   }
-  // In one row of pixels offsets are rounding, and the tilt would be a change of flux.
+  // Of pixels at one elevation the offsets are rounding: a tilt would be a change of flux.
   constexpr double kSameElevation = 1e-9, kMostTilt = 0.5;
-  if (farthest < kSameElevation) return;
-  const glm::dvec3 limit = kMostTilt * glm::abs(flux) / weight / farthest;
+  const double spread = std::sqrt(variance / weight);
+  if (spread < kSameElevation) return;
+  // No pixel lies farther off than about 2 spreads and a pixel, so none is pushed below zero.
+  const glm::dvec3 limit = kMostTilt * glm::abs(flux) / weight / (2 * spread + pixel_rad);
   const glm::dvec3 tilt = glm::clamp((target - horizontal) / variance, -limit, limit);
   for (LitPixel& p : pixels) p.light.flux += tilt * (p.light.weight * (p.sine - mean_sine));
 }
@@ -105,7 +107,7 @@ ProjectedDisc project_sun_disc(const image::Camera& camera, const SunDisc& disc)
   const Angle el = elevation(disc.centre);
   if (el <= -disc.radius) return {};
   const LatticePlan plan = plan_lattice(camera, disc);
-  const Angle reach = disc.radius + 3 * plan.grid.rows * plan.cell_extent_rad * rad;
+  const Angle reach = disc.radius + 3 * plan.pixel_extent_rad * rad;
   const bool near_horizon = el < reach;
   LatticeSums sums;
   std::vector<PixelLight> light;
@@ -118,7 +120,7 @@ ProjectedDisc project_sun_disc(const image::Camera& camera, const SunDisc& disc)
   const DiscEnergy target = target_energy(disc_energy(disc), sums);
   auto pixels = merged(camera, std::move(light));
   set_flux(pixels, target.normal_irradiance);
-  set_horizontal(pixels, target.horizontal_irradiance);
+  set_horizontal(pixels, target.horizontal_irradiance, plan.pixel_extent_rad);
   return to_radiance(pixels);
 }
 

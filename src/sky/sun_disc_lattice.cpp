@@ -79,6 +79,7 @@ LatticePlan plan_lattice(const image::Camera& camera, const SunDisc& disc) {
   const double radius_px = r / std::max(x, y);
   plan.tent = std::clamp((kPixelsWithoutTent - radius_px) / (kPixelsWithoutTent - kPixelsWithTent),
                          0.0, 1.0);
+  plan.pixel_extent_rad = std::max(x, y);
   plan.cell_extent_rad = std::max(x / plan.grid.columns, y / plan.grid.rows);
   return plan;
 }

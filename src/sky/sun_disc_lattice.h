@@ -16,7 +16,8 @@ struct PacketSums {
 struct LatticePlan {
   image::CellGrid grid;
   double tent = 1;
-  double cell_extent_rad = 0;  // the larger side of a cell
+  double pixel_extent_rad = 0;  // the larger side of a pixel
+  double cell_extent_rad = 0;   // the larger side of a cell
 };
 LatticePlan plan_lattice(const image::Camera& camera, const SunDisc& disc);
 
