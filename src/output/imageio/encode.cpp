@@ -13,6 +13,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "output/sun_policy.h"
+
 namespace skylapse::output::imageio {
 namespace {
 
@@ -58,9 +60,6 @@ std::string listed(const Range& range, Name name) {
   for (const auto& item : range) text += (text.empty() ? "" : ", ") + name(item);
   return text;
 }
-
-/// Largest finite half float (IEEE 754-2008 binary16).
-constexpr float kLargestHalf = 65504.0f;
 
 /// Half floats turn larger values into Inf without a word; the caller's sun policy comes first.
 Status check_half_range(const EncodeRequest& r) {
