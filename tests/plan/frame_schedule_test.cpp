@@ -104,8 +104,8 @@ TEST(Schedule, AMissingSunriseSaysWhereTheSunStays) {
 }
 
 TEST(Schedule, AnIntervalThatEndsBeforeItBeginsIsRefused) {
-  const auto errors =
-      plan_errors(with_time("zone: UTC, date: 2026-06-21, from: 20:00, to: 02:00, step: 1 h"));
+  const auto errors = plan_errors(
+      with_time("zone: Europe/Prague, date: 2026-06-21, from: sunset, to: sunrise, step: 1 h"));
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_NE(errors[0].message.find("ends"), std::string::npos);
 }
@@ -128,14 +128,13 @@ TEST(Schedule, FramesOfASiteComeInOrderOfTime) {
 }
 
 TEST(Schedule, ALeapSecondIsAFrameOfItsOwn) {
-  const auto plan = plan_of(with_time("date: 2016-12-31, at: ['2016-12-31T23:59:60Z']"));
+  const auto plan = plan_of(with_time("at: ['2016-12-31T23:59:60Z']"));
   ASSERT_EQ(plan.frames.size(), 1u);
   EXPECT_EQ(format_utc(plan.frames[0].instant), "2016-12-31T23:59:60Z");
 }
 
 TEST(Schedule, ALeapSecondThatNeverWasIsRefused) {
-  auto job = config::parse_job(text_of(with_time("date: 2020-06-30, at: ['2020-06-30T23:59:60Z']")),
-                               "scene.yaml");
+  auto job = config::parse_job(text_of(with_time("at: ['2020-06-30T23:59:60Z']")), "scene.yaml");
   EXPECT_TRUE(!job || !plan::make_plan(*job));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 
 #include "plan/plan.h"
@@ -29,7 +30,7 @@ inline config::JobConfig job_of(const Scene& scene) {
   auto job = config::parse_job(text_of(scene), "scene.yaml");
   if (!job) {
     for (const auto& error : job.error()) ADD_FAILURE() << format_error(error);
-    std::abort();
+    throw std::runtime_error("the scene does not parse");
   }
   return *std::move(job);
 }
@@ -38,7 +39,7 @@ inline Plan plan_of(const Scene& scene) {
   auto plan = make_plan(job_of(scene));
   if (!plan) {
     for (const auto& error : plan.error()) ADD_FAILURE() << format_error(error);
-    std::abort();
+    throw std::runtime_error("the scene has no plan");
   }
   return *std::move(plan);
 }

@@ -36,11 +36,15 @@ TEST(Plan, NumbersRunOnWhereTheNameIsTheSame) {
 }
 
 TEST(Plan, TwoFramesNeverWriteOneFile) {
+  // The clock reads 02:00 twice in this night.
   Scene scene;
-  scene.outputs = "outputs: [{image: \"{date}.png\"}]";
+  scene.time = "time: {zone: Europe/Prague, date: 2024-10-27, from: 00:00, to: 05:00, step: 1 h}";
+  scene.outputs = "outputs: [{image: \"{date}-{time}.png\"}]";
   const auto errors = plan_errors(scene);
   ASSERT_EQ(errors.size(), 1u);
-  EXPECT_NE(errors[0].message.find("would both write '2026-06-21.png'"), std::string::npos);
+  EXPECT_NE(errors[0].message.find("frames 3 and 4 would both write '2024-10-27-020000.png'"),
+            std::string::npos)
+      << errors[0].message;
   EXPECT_GT(errors[0].span.line, 0);
 }
 
