@@ -12,8 +12,9 @@ constexpr double kCellsPerRadius = 16;
 // From 32 pixels per radius on, whole pixels do: the place of the edge within them is 0.1 % of the
 // disc. Tent and half pixels fade out from 16 pixels on, so that nothing jumps.
 constexpr double kPixelsWithTent = 16, kPixelsWithoutTent = 32;
-// Limit where pixels of very unequal sides meet (the rim of a 360 degree fisheye).
-constexpr double kMostPackets = 4e5;
+// Limit where the pixels' sides are very unequal (the rim of a 360 degree fisheye): such pixels
+// are cut no finer than this allows, but at least in two.
+constexpr double kMostPackets = 1e5;
 
 /// Cuts of a pixel that spans `extent`, for a disc of radius `r`.
 int cuts(double extent, double r) {
@@ -72,10 +73,10 @@ LatticePlan plan_lattice(const image::Camera& camera, const SunDisc& disc) {
   const double r = disc.radius.in(rad), x = extent.x.in(rad), y = extent.y.in(rad);
   LatticePlan plan;
   plan.grid = {cuts(x, r), cuts(y, r)};
-  const double pixels = std::numbers::pi * r * r / (x * y);
+  const double pixels = std::numbers::pi * r * r / extent.area.in(sr);
   const int most = std::max(2, static_cast<int>(std::sqrt(kMostPackets / pixels)));
-  plan.grid.columns = std::min(plan.grid.columns, std::max(most, 1));
-  plan.grid.rows = std::min(plan.grid.rows, std::max(most, 1));
+  plan.grid.columns = std::min(plan.grid.columns, most);
+  plan.grid.rows = std::min(plan.grid.rows, most);
   const double radius_px = r / std::max(x, y);
   plan.tent = std::clamp((kPixelsWithoutTent - radius_px) / (kPixelsWithoutTent - kPixelsWithTent),
                          0.0, 1.0);

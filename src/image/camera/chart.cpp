@@ -22,7 +22,8 @@ double plane_density(double distance_px, double c) {
   return c * c * c / (distance_px * distance_px);
 }
 
-PixelExtent fisheye_extent(const Camera& camera, const Direction<CameraFrame>& centre) {
+PixelExtent fisheye_extent(const Camera& camera, const Direction<CameraFrame>& centre,
+                           Angle radius) {
   const double half_pixel = 0.5 / fisheye_circle(camera).radius_px;
   const Angle theta = separation(centre, Direction<CameraFrame>());
   const Angle edge = std::min(theta, 0.5 * camera.field_of_view);
@@ -30,9 +31,11 @@ PixelExtent fisheye_extent(const Camera& camera, const Direction<CameraFrame>& c
   const Angle inner = fisheye_theta(camera, r - half_pixel).value_or(Angle{});
   const Angle outer = fisheye_theta(camera, r + half_pixel).value_or(kPi * rad);
   const Angle radial = outer - inner;
-  const Angle tangential = (sin(edge) * 2 * half_pixel / r) * rad;
+  // Straight behind, the disc is a ring along the rim of a full sphere: half a radius from there.
+  const double sine = std::max(sin(edge), edge > 90 * deg ? sin(0.5 * radius) : 0.0);
+  const Angle tangential = (edge > Angle{} ? sine * 2 * half_pixel / r : radial.in(rad)) * rad;
   const Angle extent = std::max(radial, tangential);
-  return {extent, extent};
+  return {extent, extent, radial.in(rad)*tangential.in(rad)*sr};
 }
 
 PixelExtent lat_long_extent(const Camera& camera, const Direction<CameraFrame>& centre,
@@ -40,7 +43,34 @@ PixelExtent lat_long_extent(const Camera& camera, const Direction<CameraFrame>& 
   // The widest part of the disc is the one farthest from the pole.
   const double from_equator = std::abs(std::atan2(centre.y(), std::hypot(centre.x(), centre.z())));
   const double lowest = std::max(0.0, from_equator - radius.in(rad));
-  return {2 * kPi / camera.width * std::cos(lowest) * rad, kPi / camera.height * rad};
+  const double x = 2 * kPi / camera.width * std::cos(lowest), y = kPi / camera.height;
+  return {x * rad, y * rad, x * y * sr};
+}
+
+/// Of the plane at `focal_px`, seen along the unit vector d = (right, up, axis): a step dX at
+/// (X, Y) = (d.x, d.y) / d.z turns the ray by dX sqrt(1 + Y^2) / (1 + X^2 + Y^2).
+PixelExtent plane_extent(double focal_px, const glm::dvec3& d) {
+  return {d.z * std::hypot(d.z, d.y) / focal_px * rad, d.z * std::hypot(d.z, d.x) / focal_px * rad,
+          plane_density(focal_px, d.z) * sr};
+}
+
+PixelExtent cube_extent(const Camera& camera, const Direction<CameraFrame>& centre) {
+  const auto position = cube_position(camera, centre);
+  const auto axes = cube_face_axes(camera.cube_layout, *cube_face_at(camera, position));
+  return plane_extent(0.5 * cube_face_size(camera),
+                      {glm::dot(centre.vec(), axes.right), glm::dot(centre.vec(), axes.up),
+                       glm::dot(centre.vec(), axes.forward)});
+}
+
+PixelExtent perspective_extent(const Camera& camera, const Direction<CameraFrame>& centre) {
+  // Outside the picture its nearest edge counts: the plane's far reaches may lie behind.
+  const double f = perspective_focal_length_px(camera);
+  const auto p = perspective_position(camera, centre);
+  const double half_w = 0.5 * camera.width, half_h = 0.5 * camera.height;
+  const double x = p ? p->x - half_w : std::copysign(half_w, centre.x());
+  const double y = p ? half_h - p->y : std::copysign(half_h, centre.y());
+  return plane_extent(f, glm::normalize(glm::dvec3{std::clamp(x, -half_w, half_w),
+                                                   std::clamp(y, -half_h, half_h), f}));
 }
 
 }  // namespace
@@ -101,13 +131,9 @@ bool fills_pixel(const Chart& chart, int x, int y) {
 
 PixelExtent pixel_extent(const Camera& camera, const Direction<CameraFrame>& centre, Angle radius) {
   if (camera.projection == Projection::lat_long) return lat_long_extent(camera, centre, radius);
-  if (is_fisheye(camera)) return fisheye_extent(camera, centre);
-  const bool cube = camera.projection == Projection::cube;
-  const glm::dvec3 a = glm::abs(centre.vec());
-  const double cosine = cube ? std::max({a.x, a.y, a.z}) : std::max(0.0, centre.z());
-  const double focal_px = cube ? 0.5 * cube_face_size(camera) : perspective_focal_length_px(camera);
-  const Angle extent = cosine / focal_px * rad;  // across the radius; along it it is smaller
-  return {extent, extent};
+  if (camera.projection == Projection::cube) return cube_extent(camera, centre);
+  if (camera.projection == Projection::perspective) return perspective_extent(camera, centre);
+  return fisheye_extent(camera, centre, radius);
 }
 
 }  // namespace skylapse::image

@@ -33,10 +33,13 @@ double share_in_picture(const Chart& chart, PixelPosition position, const ChartS
 /// of a lat-long map repeat, and its rows go on over the poles, so there every pixel is.
 bool fills_pixel(const Chart& chart, int x, int y);
 
-/// Angles that a pixel spans in x and y where a disc of the given radius is centred; the largest
-/// over the disc where they change within it.
+/// Angles that a pixel spans in x and y where a disc of the given radius is centred (the nearest
+/// place in the picture if that is outside), and its solid angle. Where they change within the
+/// disc, x and y are the largest; in a fisheye both are the larger of the radial and the
+/// tangential angle.
 struct PixelExtent {
   Angle x, y;
+  SolidAngle area;
 };
 PixelExtent pixel_extent(const Camera& camera, const Direction<CameraFrame>& centre, Angle radius);
 
