@@ -202,17 +202,19 @@ TEST(SunDisc, CentroidIsTheSunsDirection) {
     for (int k = 0; k < 6; ++k) {
       const Angle azimuth = 360 * uniform(rng) * deg, el = (20 + 40 * uniform(rng)) * deg;
       for (const auto& [name, camera, fisheye] : cameras_around(width, azimuth, el)) {
-        const SunDisc sun = test_sun(azimuth, el);
+        const SunDisc sun = uniform_sun(azimuth, el);
         glm::dvec3 sum{0};
         for (const auto& [x, y, radiance] : project_sun_disc(camera, sun).pixels)
-          sum += radiance.g * pixel_solid_angle(camera, x, y)
+          sum += radiance.x * pixel_solid_angle(camera, x, y)
                                   .in(sr)*direction_at(camera, {x + 0.5, y + 0.5})
                                   ->vec();
         const auto extent = pixel_extent(camera, to_camera_frame(camera, sun.centre), sun.radius).y;
-        // Within a pixel of angle h the grid's directions bend by up to 2 h (a cube's corner), and
-        // a tent over a bent grid misses the place by h / 8 of that; twice as much at an edge.
+        // Within a pixel of angle h the grid's directions bend by up to 2 h (a cube's corner), so a
+        // tent misses the place by h / 4, twice that across a cube's edge; the tilt that sets the
+        // ground's irradiance may add as much again (0.7 h in all measured). The limb's light is
+        // put at the middle of its cells: 1/16 of the radius, 0.003 pixels measured.
         EXPECT_LT(separation(Direction<Enu>::from_vector(sum), sun.centre) / extent,
-                  0.5 * extent.in(rad) + 2e-3)
+                  extent.in(rad) + 5e-3)
             << name << ' ' << width;
       }
     }
