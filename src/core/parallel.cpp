@@ -9,6 +9,10 @@ namespace skylapse {
 
 int available_cores() { return tbb::info::default_concurrency(); }
 
+int allowed_threads() {
+  return int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
 void parallel_for_ranges(size_t count, size_t grain,
                          const std::function<void(size_t, size_t)>& body) {
   tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain > 0 ? grain : 1),

@@ -8,6 +8,9 @@ namespace skylapse {
 /// Cores this process may use (affinity and cgroup respected by the scheduler).
 int available_cores();
 
+/// Threads that parallel work of this process may use now: available_cores() or the ThreadLimit.
+int allowed_threads();
+
 /// Calls body(begin, end) over disjoint pieces that cover [0, count), on all cores.
 /// Pieces hold at least `grain` items. The body must not throw.
 void parallel_for_ranges(size_t count, size_t grain,

@@ -9,18 +9,18 @@ struct Rate {
   double bytes;
 };
 
-constexpr double kSkyNs = 8;
-constexpr double kDisplayNs = 190;  // exposure, display transform, dither
-constexpr double kMovieNs = 120;
+constexpr double kSkyNs = 7;
+constexpr double kDisplayNs = 51;  // exposure, display transform, dither
+constexpr double kMovieNs = 58;    // reading back and x264
 
 Rate encoding(const config::ImageOutput& output) {
-  const bool wide = output.sample_type == output::SampleType::float32;
-  if (output.format == "png")
-    return {output.sample_type == output::SampleType::u16 ? 150. : 75., 1.8};
-  if (output.format == "jpg") return {12, 0.12};
-  if (output.format == "hdr") return {25, 3.2};
-  if (output.format == "tif") return {60, wide ? 10. : 5.};
-  return {wide ? 160. : 80., wide ? 9.0 : 3.2};  // exr
+  const bool float32 = output.sample_type == output::SampleType::float32;
+  const bool u16 = output.sample_type == output::SampleType::u16;
+  if (output.format == "png") return u16 ? Rate{53, 1.8} : Rate{27, 0.9};
+  if (output.format == "jpg") return {3, 0.05};
+  if (output.format == "hdr") return {8, 0.6};
+  if (output.format == "tif") return {float32 ? 120. : 40., float32 ? 7. : u16 ? 2. : 1.};
+  return float32 ? Rate{215, 6.8} : Rate{39, 0.4};  // exr
 }
 
 Rate rate_of(const config::Output& output) {
@@ -29,7 +29,7 @@ Rate rate_of(const config::Output& output) {
     if (image->view || image->display) rate.nanoseconds += kDisplayNs;
     return rate;
   }
-  return {kMovieNs, 0.02};
+  return {kMovieNs, 0.005};
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ TEST(ParallelForRanges, TouchesEveryItemOnce) {
 
 TEST(ThreadLimit, OneThreadStillFinishesTheWork) {
   const ThreadLimit limit(1);
+  EXPECT_EQ(allowed_threads(), 1);
   std::atomic<size_t> sum = 0;
   parallel_for_ranges(1000, 1, [&](size_t begin, size_t end) { sum += end - begin; });
   EXPECT_EQ(sum, 1000u);

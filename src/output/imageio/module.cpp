@@ -15,7 +15,7 @@ namespace {
 class ModuleImageIo final : public ImageIo {
  public:
   ModuleImageIo() {
-    const int threads = available_cores();
+    const int threads = allowed_threads();
     OIIO::attribute("threads", threads);
     OIIO::attribute("exr_threads", threads);
     OIIO::attribute("debug", 0);  // the Debian build writes notes to stderr otherwise
