@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -84,7 +85,8 @@ class Section {
 struct ReadContext {
   const SourceSet& sources;
   ErrorList& errors;
-  std::string folder;  // of the config file, for files named in it
+  std::string folder;                   // of the config file, for files named in it
+  std::set<std::string> known_zones{};  // found before: libraries repeat few zones often
 };
 
 /// Reads a map by its spec: unknown, missing and conflicting keys, kinds, units and ranges are

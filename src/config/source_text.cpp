@@ -18,15 +18,10 @@ std::string printable(std::string text) {
   return text;
 }
 
-/// UTF-8 characters in `text`: bytes that do not continue a character.
-int characters_in(std::string_view text) {
-  return int(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 }  // namespace
 
 int SourceSet::add(std::string name, std::string text) {
-  sources_.push_back({std::move(name), {}, {}});
+  sources_.push_back({std::move(name), {}, {}, {}});
   const int source = int(sources_.size()) - 1;
   set_text(source, std::move(text));
   return source;
@@ -36,8 +31,11 @@ void SourceSet::set_text(int source, std::string text) {
   Source& s = sources_[source];
   s.text = std::move(text);
   s.line_starts = {0};
-  for (size_t i = 0; i < s.text.size(); ++i)
+  s.continuations.clear();
+  for (size_t i = 0; i < s.text.size(); ++i) {
     if (s.text[i] == '\n') s.line_starts.push_back(i + 1);
+    if ((s.text[i] & 0xC0) == 0x80) s.continuations.push_back(i);
+  }
 }
 
 std::string_view SourceSet::line(int source, int line) const {
@@ -48,23 +46,35 @@ std::string_view SourceSet::line(int source, int line) const {
   return std::string_view(s.text).substr(begin, end - begin);
 }
 
+/// By the sorted list of continuing bytes: a file in one long line must not make spans costly.
+int SourceSet::characters_in(const Source& source, size_t begin, size_t end) {
+  const auto& bytes = source.continuations;
+  const auto first = std::lower_bound(bytes.begin(), bytes.end(), begin);
+  const auto last = std::lower_bound(first, bytes.end(), end);
+  return int(end - begin) - int(last - first);
+}
+
 SourceSpan SourceSet::span(const Place& place) const {
   if (place.source < 0 || size_t(place.source) >= sources_.size()) return {};
   if (place.line <= 0) return {sources_[place.source].name, 0, 0, 1, {}};
+  const Source& source = sources_[place.source];
   const std::string_view text = line(place.source, place.line);
+  const size_t line_start = text.empty() ? 0 : size_t(text.data() - source.text.data());
   const size_t begin = std::min(size_t(std::max(place.column, 1) - 1), text.size());
-  SourceSpan span{sources_[place.source].name,
-                  place.line,
-                  characters_in(text.substr(0, begin)) + 1,
-                  std::max(1, characters_in(text.substr(begin, place.length))),
-                  {}};
-  const bool shown = place.length > 0 && std::none_of(text.begin(), text.end(), is_control);
-  if (shown && text.size() <= kLongestShownLine) {
-    span.source_line = text;
-  } else if (shown && begin + 20 < kLongestShownLine) {
-    span.source_line = std::string(text.substr(0, kLongestShownLine)) + " ...";
-    span.length = std::min(span.length, int(kLongestShownLine - begin));
-  }
+  const size_t end = std::min(begin + size_t(std::max(place.length, 0)), text.size());
+  const int column = characters_in(source, line_start, line_start + begin) + 1;
+  const int length = characters_in(source, line_start + begin, line_start + end);
+  SourceSpan span{source.name, place.line, column, std::max(1, length), {}};
+  const bool near_start = text.size() <= kLongestShownLine || begin + 20 < kLongestShownLine;
+  if (place.length == 0 || !near_start) return span;
+  size_t cut = std::min(text.size(), kLongestShownLine);
+  while (cut < text.size() && cut > 0 && (text[cut] & 0xC0) == 0x80) --cut;
+  const std::string_view shown = text.substr(0, cut);
+  if (std::any_of(shown.begin(), shown.end(), is_control)) return span;
+  span.source_line = shown;
+  if (shown.size() == text.size()) return span;
+  span.source_line += " ...";
+  span.length = std::min(span.length, int(kLongestShownLine - begin));
   return span;
 }
 

@@ -35,7 +35,9 @@ class SourceSet {
     std::string name;
     std::string text;
     std::vector<size_t> line_starts;
+    std::vector<size_t> continuations;  // bytes that continue a UTF-8 character
   };
+  static int characters_in(const Source& source, size_t begin, size_t end);
   std::vector<Source> sources_;
 };
 

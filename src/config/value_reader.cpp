@@ -18,6 +18,7 @@ namespace skylapse::config {
 namespace {
 
 constexpr size_t kLongestText = 200;
+constexpr size_t kLongestZone = 40;  // the longest IANA name has 32 letters
 constexpr int kLongestSide = 65536;
 
 std::string shown(std::string_view text) {
@@ -120,11 +121,17 @@ Result<Value, Problem> read_text(const Node& node, const std::string& path) {
   return Value{node.text, node.place};
 }
 
-Result<Value, Problem> read_zone(const Node& node, const std::string& path) {
+/// Finding what is near an unknown name is costly; hostile files ask for it thousands of times.
+Result<Value, Problem> read_zone(const Node& node, const std::string& path, ReadContext& context) {
   const auto text = read_text(node, path);
   if (!text) return text.error();
+  if (context.known_zones.contains(node.text)) return Value{node.text, node.place};
+  if (node.text.size() > kLongestZone || context.errors.full())
+    return Problem{fmt::format("{}: unknown time zone \"{}\"", path, shown(node.text)),
+                   "allowed: an IANA name (Europe/Prague), UTC, or an offset (+02:00)"};
   const auto zone = astro::Zone::find(node.text);
   if (!zone) return Problem{fmt::format("{}: {}", path, zone.error().message), zone.error().hint};
+  context.known_zones.insert(node.text);
   return Value{node.text, node.place};
 }
 
@@ -237,7 +244,7 @@ std::vector<std::string> view_words() {
 }
 
 Result<Value, Problem> read_scalar(const Node& node, const KeySpec& key, const std::string& path,
-                                   const ReadContext& context) {
+                                   ReadContext& context) {
   switch (key.kind) {
     case ValueKind::number:
       return read_number(node, key, path);
@@ -256,7 +263,7 @@ Result<Value, Problem> read_scalar(const Node& node, const KeySpec& key, const s
     case ValueKind::output_path:
       return read_output_path(node, path);
     case ValueKind::zone:
-      return read_zone(node, path);
+      return read_zone(node, path, context);
     case ValueKind::date:
       return read_date(node, path, false);
     case ValueKind::dates:

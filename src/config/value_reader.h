@@ -6,7 +6,7 @@ namespace skylapse::config {
 
 /// Kinds that are maps or lists are not handled here (section, section_list, dates).
 Result<Value, Problem> read_scalar(const Node& node, const KeySpec& key, const std::string& path,
-                                   const ReadContext& context);
+                                   ReadContext& context);
 
 /// "-500 m to 100 km", "one of auto, hosek-wilkie": what a key takes, for hints and docs; empty if
 /// anything goes.

@@ -116,6 +116,15 @@ TEST(HostileInput, AVeryLongLineIsCutInMessages) {
   }
 }
 
+/// Columns in one long line once took time in proportion to the line, for every value in it.
+TEST(HostileInput, ManyValuesInOneLineHaveTheirColumnsAtOnce) {
+  std::string line;
+  for (size_t i = 0; i < 1'000'000; ++i) line += "\u00e9";
+  SourceSet sources;
+  sources.add("x", line);
+  for (int i = 0; i < 100'000; ++i) EXPECT_EQ(sources.span({0, 1, 2 * i + 1, 2}).column, i + 1);
+}
+
 TEST(HostileInput, TextFromTheFileCannotSteerTheTerminal) {
   const auto job =
       parse_job("\"\\e[31mkey\": 1\ntitle: \"\\x07\"\nsky: {model: \"\\e[2J\"}\n", "job.yaml");
