@@ -46,13 +46,14 @@ struct ProjectedDisc {
 };
 
 /// Flux      sum of L Omega is that of the part of the disc inside the picture: to rounding if all
-///           of it is, within 0.5 % of the whole disc's flux where the frame cuts it.
+///           of it is, within 0.5 % of the whole disc's flux where the frame cuts it (0.05 % for a
+///           disc of more than 64 pixels' radius, which is not set to the reference then).
 /// Ground    sum of L Omega sin(elevation) too, unless the disc spans so few pixel rows above the
 ///           horizon that no sharing of the light among them has both sums; then flux is kept.
 /// Place     the centroid is kept to a small part of a pixel; no light falls on pixels that are
 ///           wholly below the horizon or outside the picture.
 /// Change    continuous in the disc's direction: a moving sun does not flicker.
-/// Cost      about 0.2 ms and twice the touched pixels' evaluation, whatever the image size.
+/// Cost      0.3 ms for a small disc, 0.6 us per pixel of a large one, whatever the image size.
 ProjectedDisc project_sun_disc(const image::Camera& camera, const SunDisc& disc);
 
 /// Adds project_sun_disc to an image of the camera's size (asserted); returns its energy. Add the

@@ -71,16 +71,18 @@ Footprint plane_footprint(const PlaneView& view, Angle radius, CellGrid grid) {
   return f;
 }
 
+// Room around a perspective picture for a disc that its frame cuts. A larger disc is incomplete.
+constexpr double kMarginPx = 128;
+
 Footprint perspective_footprint(const Camera& camera, const Direction<CameraFrame>& c, Angle radius,
                                 CellGrid grid) {
   const double w = camera.width, h = camera.height;
-  const double margin = std::max(w, h);  // room for a disc that is cut by the frame
   return plane_footprint({{c.x(), -c.y(), c.z()},
                           perspective_focal_length_px(camera),
                           0.5 * w,
                           0.5 * h,
-                          {-margin, w + margin},
-                          {-margin, h + margin},
+                          {-kMarginPx, w + kMarginPx},
+                          {-kMarginPx, h + kMarginPx},
                           {0, w},
                           {0, h}},
                          radius, grid);
