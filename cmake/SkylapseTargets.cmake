@@ -30,7 +30,7 @@ function(skylapse_library name)
   add_library(skylapse::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/skylapse>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR};${CMAKE_INSTALL_INCLUDEDIR}/skylapse>")
   target_compile_features(${target} PUBLIC cxx_std_20)
   foreach(folder IN LISTS arg_LINKS)
     target_link_libraries(${target} PUBLIC skylapse_${folder})
