@@ -133,6 +133,15 @@ TEST(SunDiscEdges, FrameCutsTheDiscAndItsEnergyAlike) {
   }
 }
 
+TEST(SunDiscEdges, DiscLargerThanThePictureFillsIt) {
+  const Camera camera{perspective, 160, 90, 0.2 * deg, {}, look_at(70 * deg, 10 * deg, {})};
+  const SunDisc sun{enu_direction(70.05 * deg, 10 * deg), kTestRadius,
+                    [](Angle, double) { return glm::dvec3{1}; }};
+  const auto pixels = project_sun_disc(camera, sun).pixels;
+  EXPECT_EQ(pixels.size(), 160U * 90U);
+  for (const auto& [x, y, radiance] : pixels) ASSERT_NEAR(radiance.x, 1, 1e-3) << x << ' ' << y;
+}
+
 TEST(SunDiscEdges, WidePerspectivesCutTheDiscToo) {
   for (const double fov : {170.0, 178.0, 179.5}) {
     const Camera camera{perspective, 64, 16, fov * deg, {}, kNorth};
