@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/csv.h"
 #include "cli/table.h"
+#include "config/time_expression.h"
 
 namespace skylapse::cli {
 namespace {
@@ -55,14 +56,12 @@ std::string times_text(const astro::EventTimes& event) {
 std::vector<Cell> row_of(const config::Site& site, const astro::Zone& zone,
                          const astro::DayEvents& events) {
   const double hours = (events.day.end - events.day.start).in(hour);
-  const auto& date = events.day.date;
   std::vector<Cell> row{text_cell(site.name),
                         number_cell(site.position.latitude.in(deg), 6),
                         number_cell(site.position.longitude.in(deg), 6),
                         number_cell(site.position.height.in(metre), 2),
                         text_cell(zone.name()),
-                        text_cell(fmt::format("{:04}-{:02}-{:02}", int(date.year()),
-                                              unsigned(date.month()), unsigned(date.day()))),
+                        text_cell(config::date_text(events.day.date)),
                         text_cell(format_utc(events.day.start)),
                         text_cell(format_utc(events.day.end)),
                         {fmt::format("{:g}", hours), true}};

@@ -123,8 +123,8 @@ struct MovieOutput {
 
 using Output = std::variant<ImageOutput, MovieOutput>;
 
-/// More frames than this in one job are refused: a year at one in three seconds.
-inline constexpr long kMaxJobFrames = 10'000'000;
+/// More frames than this in one job are refused: more than a year at one a minute.
+inline constexpr long kMaxJobFrames = 1'000'000;
 
 struct JobConfig {
   std::string file;

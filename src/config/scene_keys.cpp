@@ -125,7 +125,7 @@ const SectionSpec& time_spec() {
               {.name = "frames",
                .kind = K::integer,
                .min = "1",
-               .max = "10000000",
+               .max = "1000000",
                .example = "240",
                .doc = "Number of frames, evenly from `from` to `to`, both included."},
               {.name = "every",

@@ -1,6 +1,5 @@
 #include "plan/frame_schedule.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,16 +7,13 @@
 #include <map>
 #include <optional>
 
+#include "config/time_expression.h"
+
 namespace skylapse::plan {
 namespace {
 
 using astro::Instant;
 using std::chrono::year_month_day;
-
-std::string date_text(const year_month_day& date) {
-  return fmt::format("{:04}-{:02}-{:02}", int(date.year()), unsigned(date.month()),
-                     unsigned(date.day()));
-}
 
 Error error_at(const SourceSpan& span, std::string message, std::string hint = {}) {
   return {ErrorCode::invalid_input, std::move(message), span, std::move(hint)};
@@ -49,7 +45,7 @@ class SiteDays {
 
 std::string why_absent(const astro::DayEvents& day, astro::EventKind kind,
                        const std::string& site) {
-  const std::string where = fmt::format("at {} on {}", site, date_text(day.day.date));
+  const std::string where = fmt::format("at {} on {}", site, config::date_text(day.day.date));
   switch (day.of(kind).absent) {
     case astro::AbsentEvent::above:
       return fmt::format("there is no {} {}: it stays above that level all day", name_of(kind),
@@ -104,9 +100,9 @@ struct Interval {
 Result<std::vector<Instant>> by_step(const Interval& span, Duration step, const SourceSpan& place) {
   const double length = (span.to - span.from).in(second);
   const double count = std::floor(length / step.in(second) + 1e-9) + 1;
-  if (count > double(kMaxFrames))
+  if (count > double(config::kMaxJobFrames))
     return error_at(place, fmt::format("this asks for {:.3g} frames", count),
-                    fmt::format("allowed: at most {} frames in a job", kMaxFrames));
+                    fmt::format("allowed: at most {} frames in a job", config::kMaxJobFrames));
   std::vector<Instant> times;
   for (long i = 0; i < long(count); ++i) times.push_back(span.from + double(i) * step);
   return times;
@@ -209,7 +205,8 @@ Result<Schedule, Diagnostics> make_schedule(const config::JobConfig& job) {
     for (const auto& [date, may_be_skipped] : days) {
       if (may_be_skipped && !zone->civil_day(date)) {
         schedule.notes.push_back(fmt::format("{} {}: this day does not exist in {}; passed over",
-                                             job.sites[s].name, date_text(date), zone->name()));
+                                             job.sites[s].name, config::date_text(date),
+                                             zone->name()));
         continue;
       }
       auto times = times_of_day(job.time, date, site_days);
@@ -219,9 +216,9 @@ Result<Schedule, Diagnostics> make_schedule(const config::JobConfig& job) {
       }
       for (const Instant& instant : *times)
         schedule.times.push_back({int(s), date, instant, zone->to_local(instant)});
-      if (long(schedule.times.size()) > kMaxFrames)
+      if (long(schedule.times.size()) > config::kMaxJobFrames)
         return Diagnostics{error_at(job.time.span, "this job has too many frames",
-                                    fmt::format("allowed: at most {}", kMaxFrames))};
+                                    fmt::format("allowed: at most {}", config::kMaxJobFrames))};
     }
   }
   if (!errors.empty()) return errors;

@@ -10,9 +10,6 @@
 
 namespace skylapse::plan {
 
-/// More frames than this in one job are refused: more than a year at one a minute.
-inline constexpr long kMaxFrames = 1'000'000;
-
 struct ScheduledTime {
   int site = 0;  // index into JobConfig::sites
   std::chrono::year_month_day date;

@@ -6,6 +6,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "config/time_expression.h"
 #include "plan/exposure_plan.h"
 #include "plan/path_template.h"
 #include "plan/sky_of_frame.h"
@@ -26,8 +27,7 @@ std::string clock_text(const astro::LocalTime& local) {
 PathValues path_values(const config::JobConfig& job, const Frame& frame) {
   PathValues values;
   values.site = job.sites[frame.site].name;
-  values.date = fmt::format("{:04}-{:02}-{:02}", int(frame.date.year()),
-                            unsigned(frame.date.month()), unsigned(frame.date.day()));
+  values.date = config::date_text(frame.date);
   values.time = clock_text(frame.local);
   values.camera = job.cameras[frame.camera].name;
   values.turbidity = fmt::format("{:.3g}", job.air.turbidity[frame.turbidity].value);
@@ -115,11 +115,11 @@ Result<Plan, Diagnostics> make_plan(config::JobConfig job) {
   if (!schedule) return schedule.error();
   const size_t combinations =
       job.air.turbidity.size() * job.air.ground_albedo.size() * job.cameras.size();
-  if (schedule->times.size() * combinations > size_t(kMaxFrames))
+  if (schedule->times.size() * combinations > size_t(config::kMaxJobFrames))
     return Diagnostics{
         {ErrorCode::invalid_input,
          fmt::format("this job has {} frames", schedule->times.size() * combinations),
-         job.time.span, fmt::format("allowed: at most {}", kMaxFrames)}};
+         job.time.span, fmt::format("allowed: at most {}", config::kMaxJobFrames)}};
   Plan plan{std::move(job), {}, std::move(schedule->notes), {}};
   plan.model_reason = plan.job.sky.model == config::SkyModel::automatic
                           ? "hosek-wilkie: the sky model for an observer on the ground"

@@ -86,7 +86,7 @@ TEST(Schema, RefusesWhatTheReaderRefuses) {
                             {"ground_albedo: grass", "ground_albedo: gras"},
                             {"ground_albedo: grass", "ground_albedo: 1.5"},
                             {"projection: perspective", "projection: perspektive"},
-                            {"azimuth: 240 deg", "azimuth: wets"},
+                            {"azimuth: 270 deg", "azimuth: wets"},
                             {"fov: 100 deg", "fov: 100"},
                             {"size: 1280x720", "size: large"},
                             {"mode: sun-curve", "mode: moon-curve"},

@@ -4,25 +4,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "color/cie_observer.h"
 #include "color/rgb_space.h"
-#include "data/cie1931.h"
 #include "sky/quadrature.h"
 
 namespace skylapse::sky::hosek_wilkie {
 namespace {
 
-/// Matching functions summed at 1 nm against the hat functions of the bands: exact for radiances
-/// that are linear between bands and constant beyond 720 nm.
+/// The bands are points of a spectrum that is straight between them.
 std::array<glm::dvec3, kBandCount> spectral_weights() {
-  std::array<glm::dvec3, kBandCount> weights{};
-  for (size_t n = 0; n < data::kCie1931.size(); ++n) {
-    const double x = (data::kCie1931WavelengthNm[n] - band_wavelength_nm(0)) / 40;
-    const int i = std::min(static_cast<int>(x), kBandCount - 2);
-    const double f = std::min(x - i, 1.0);
-    const glm::dvec3 cmf(data::kCie1931[n][0], data::kCie1931[n][1], data::kCie1931[n][2]);
-    weights[i] += (1 - f) * cmf;
-    weights[i + 1] += f * cmf;
-  }
+  std::array<Wavelength, kBandCount> nodes;
+  for (int band = 0; band < kBandCount; ++band) nodes[band] = band_wavelength_nm(band) * nm;
+  std::array<glm::dvec3, kBandCount> weights;
+  std::ranges::copy(color::xyz_weights(nodes), weights.begin());
   return weights;
 }
 
