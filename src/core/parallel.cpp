@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace skylapse {
 
@@ -15,8 +16,12 @@ int allowed_threads() {
 
 void parallel_for_ranges(size_t count, size_t grain,
                          const std::function<void(size_t, size_t)>& body) {
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain > 0 ? grain : 1),
-                    [&](const auto& range) { body(range.begin(), range.end()); });
+  // Isolated: while this thread waits for its pieces it must not start on another frame, which
+  // would hold two frames on one thread and count the one's time as the other's.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain > 0 ? grain : 1),
+                      [&](const auto& range) { body(range.begin(), range.end()); });
+  });
 }
 
 ThreadLimit::ThreadLimit(int threads) {

@@ -16,7 +16,7 @@ struct LedgerEntry {
   std::string fingerprint;
   std::string sha256;
   uintmax_t bytes = 0;
-  StageTimes times;
+  StageTimes times;  // sky and disc of the frame, the rest of the file's own output
   /// What encoding did to the picture, as "name": value pairs for the manifest (sun policy).
   std::map<std::string, double> encoding;
 };

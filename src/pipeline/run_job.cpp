@@ -92,19 +92,23 @@ void run_task(const JobContext& job, Task& task) {
     task.error = rendered.error();
     return;
   }
+  const StageTimes of_frame = task.times;
   for (const size_t o : task.missing) {
     if (job.stopped()) {
       task.error = interrupted();
       return;
     }
+    StageTimes own;  // of this output; sky and disc are the frame's
     auto entries = write_image_output(job.io, job.plan, frame, *rendered, o, job.displays,
-                                      job.options.output, job.fingerprint(frame, o), task.times);
+                                      job.options.output, job.fingerprint(frame, o), own);
     if (!entries) {
       task.error = entries.error();
       return;
     }
+    task.times += own;
+    own += of_frame;
     for (LedgerEntry& entry : *entries) {
-      entry.times = task.times;
+      entry.times = own;
       task.bytes += entry.bytes;
       const Status recorded = job.ledger.record(entry);
       if (!recorded) task.error = recorded.error();
