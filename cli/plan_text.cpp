@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <tuple>
 
@@ -41,27 +42,55 @@ Table frame_table(const PlannedWork& work) {
   return table;
 }
 
-/// Each effect with the frames it is on and off for, and one reason for each kind of decision
-/// (reasons that differ in their numbers alone count as one kind).
+/// A reason split at its first number, so that reasons that differ in it alone count as one.
+struct Wording {
+  std::string before, after;
+  double number = 0;
+  int decimals = -1;  // -1: there is no number
+};
+
+Wording wording_of(const std::string& reason) {
+  const size_t begin = reason.find_first_of("0123456789");
+  if (begin == std::string::npos) return {reason, "", 0, -1};
+  const size_t from = begin > 0 && reason[begin - 1] == '-' ? begin - 1 : begin;
+  char* end = nullptr;
+  const double number = std::strtod(reason.c_str() + from, &end);
+  const std::string text(reason.c_str() + from, end);
+  const size_t point = text.find('.');
+  return {reason.substr(0, from), end, number,
+          point == std::string::npos ? 0 : int(text.size() - point - 1)};
+}
+
+/// Each effect with the frames it is on and off for, and the reasons, numbers as a range.
 std::string effect_summary(const PlannedWork& work) {
   struct Kind {
     long frames = 0;
-    std::string first_reason;
+    double low = 0, high = 0;
+    int decimals = -1;
   };
-  std::map<std::tuple<plan::Effect, bool, std::string>, Kind> kinds;
+  using Key = std::tuple<plan::Effect, bool, std::string, std::string>;
+  std::map<Key, Kind> kinds;
   for (const long number : work.frames)
     for (const auto& d : plan::decide_effects(work.plan.job, work.plan.frames[number - 1])) {
-      std::string wording;
-      for (const char c : d.reason)
-        if (std::string_view("0123456789.-+e").find(c) == std::string_view::npos) wording += c;
-      Kind& kind = kinds[{d.effect, !d.on, wording}];
-      if (kind.frames++ == 0) kind.first_reason = d.reason;
+      const Wording wording = wording_of(d.reason);
+      Kind& kind = kinds[{d.effect, !d.on, wording.before, wording.after}];
+      kind.low = kind.frames == 0 ? wording.number : std::min(kind.low, wording.number);
+      kind.high = kind.frames == 0 ? wording.number : std::max(kind.high, wording.number);
+      kind.decimals = std::max(kind.decimals, wording.decimals);
+      ++kind.frames;
     }
   std::string text;
-  for (const auto& [key, kind] : kinds)
-    text += fmt::format("  {:<22} {:<3} in {:>4} frames: {}{}\n", name_of(std::get<0>(key)),
-                        std::get<1>(key) ? "off" : "on", kind.frames, kind.first_reason,
-                        std::get<1>(key) ? "; error bound 0" : "");
+  for (const auto& [key, kind] : kinds) {
+    std::string range;
+    if (kind.decimals >= 0) {
+      const int decimals = std::min(kind.decimals, 4);
+      range = fmt::format("{:.{}f}", kind.low, decimals);
+      if (kind.high > kind.low) range += fmt::format(" to {:.{}f}", kind.high, decimals);
+    }
+    text += fmt::format("  {:<22} {:<3} in {:>4} frames: {}{}{}{}\n", name_of(std::get<0>(key)),
+                        std::get<1>(key) ? "off" : "on", kind.frames, std::get<2>(key), range,
+                        std::get<3>(key), std::get<1>(key) ? "; error bound 0" : "");
+  }
   return text;
 }
 

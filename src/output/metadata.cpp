@@ -103,7 +103,7 @@ void add_sun_policy(AttributeList& list, const FrameMetadata& f) {
   if (!f.sun_policy) return;
   list.text("skylapse:sunPolicy", sun_policy_name(f.sun_policy->policy));
   list.number("skylapse:scale", f.sun_policy->scale);
-  list.integer("skylapse:clippedPixels", static_cast<int>(f.sun_policy->clipped_pixels));
+  list.integer("skylapse:pixelsBeyondHalf", static_cast<int>(f.sun_policy->pixels_beyond_half));
   list.number("skylapse:lostFraction", f.sun_policy->lost_fraction);
 }
 

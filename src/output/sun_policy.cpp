@@ -46,7 +46,7 @@ double lost_share(double before, double after) {
 
 Error refused(float largest) {
   return {.code = ErrorCode::invalid_input,
-          .message = "the image reaches " + std::to_string(largest) +
+          .message = "the image reaches " + std::to_string(std::lround(largest)) +
                      ", beyond the half-float limit of 65504",
           .hint = "write 32-bit floats, or choose the sun policy clip, scale or split"};
 }
@@ -68,13 +68,13 @@ bool exceeds_half(const image::FrameBuffer& frame) {
 
 Result<SunPolicyRecord> apply_sun_policy(image::FrameBuffer& frame, SunPolicy policy,
                                          const image::FrameBuffer* sky_only) {
-  SunPolicyRecord record{.policy = policy, .clipped_pixels = count_beyond(frame)};
+  SunPolicyRecord record{.policy = policy, .pixels_beyond_half = count_beyond(frame)};
   switch (policy) {
     case SunPolicy::refuse:
-      if (record.clipped_pixels > 0) return refused(largest_magnitude(frame));
+      if (record.pixels_beyond_half > 0) return refused(largest_magnitude(frame));
       return record;
     case SunPolicy::clip:
-      if (record.clipped_pixels > 0) {
+      if (record.pixels_beyond_half > 0) {
         const double before = sum_of(frame);
         clip(frame);
         record.lost_fraction = lost_share(before, sum_of(frame));
@@ -83,7 +83,7 @@ Result<SunPolicyRecord> apply_sun_policy(image::FrameBuffer& frame, SunPolicy po
     case SunPolicy::scale: {
       const float largest = largest_magnitude(frame);
       if (std::isinf(largest)) return refused(largest);
-      if (record.clipped_pixels == 0) return record;
+      if (record.pixels_beyond_half == 0) return record;
       record.scale = fitting_scale(largest);
       for (float& v : frame.data()) v *= static_cast<float>(record.scale);
       return record;
@@ -93,8 +93,8 @@ Result<SunPolicyRecord> apply_sun_policy(image::FrameBuffer& frame, SunPolicy po
              sky_only->height() == frame.height());
       const double before = sum_of(frame);
       frame = *sky_only;
-      record.clipped_pixels = count_beyond(frame);
-      if (record.clipped_pixels > 0) clip(frame);
+      record.pixels_beyond_half = count_beyond(frame);
+      if (record.pixels_beyond_half > 0) clip(frame);
       record.lost_fraction = lost_share(before, sum_of(frame));
       return record;
     }

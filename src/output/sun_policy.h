@@ -18,7 +18,7 @@ struct SunPolicyRecord {
   /// then stands for 683 / scale cd/m^2.
   double scale = 1.0;
   /// Pixels with a channel beyond 65504 before the policy acted.
-  long clipped_pixels = 0;
+  long pixels_beyond_half = 0;
   /// Share of the sum of all samples (of the whole image) that the file does not hold: the part cut
   /// off by `clip`, or the disc left out by `split`. 0 for the others.
   double lost_fraction = 0.0;

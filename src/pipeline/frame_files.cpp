@@ -53,6 +53,12 @@ std::vector<uint16_t> quantised_u16(const plan::Frame& frame, const image::Frame
   return picture;
 }
 
+/// Where the config names the view; the output's path if it names none.
+SourceSpan view_span_of(const config::Output& output) {
+  return std::visit([](const auto& o) { return o.view_span.line > 0 ? o.view_span : o.path.span; },
+                    output);
+}
+
 output::EnvironmentMap environment_of(const config::CameraConfig& camera) {
   if (camera.camera.projection == image::Projection::lat_long)
     return output::EnvironmentMap::lat_long;
@@ -133,10 +139,17 @@ Result<Samples> samples_of(const plan::Frame& frame, const RenderedFrame& render
   return s;
 }
 
+std::map<std::string, double> light_record(const RenderedFrame& rendered) {
+  const auto lux_of = [](const glm::dvec3& xyz) { return xyz.y * kLuminousEfficacy; };
+  return {{"sky_horizontal_lux", lux_of(rendered.sky_irradiance_xyz)},
+          {"sun_horizontal_lux", lux_of(rendered.sun_irradiance_xyz)},
+          {"sun_normal_lux", lux_of(rendered.sun_normal_irradiance_xyz)}};
+}
+
 std::map<std::string, double> encoding_record(const output::FrameMetadata& meta) {
   if (!meta.sun_policy) return {};
   return {{"scale", meta.sun_policy->scale},
-          {"clipped_pixels", double(meta.sun_policy->clipped_pixels)},
+          {"pixels_beyond_half", double(meta.sun_policy->pixels_beyond_half)},
           {"lost_fraction", meta.sun_policy->lost_fraction}};
 }
 
@@ -160,7 +173,7 @@ Result<Displays> Displays::make(const output::ImageIo& io, const config::JobConf
       auto fresh = io.display({color_config_file(job), job.color.space, key.first, key.second});
       if (!fresh) {
         Error error = fresh.error();
-        error.span = std::visit([](const auto& o) { return o.path.span; }, output);
+        error.span = view_span_of(output);
         return error;
       }
       transform = std::move(*fresh);
@@ -193,7 +206,7 @@ Result<std::vector<LedgerEntry>> write_image_output(
   }();
   if (!samples) {
     Error error = samples.error();
-    error.span = output.path.span;
+    error.span = output.sun_policy_span.line > 0 ? output.sun_policy_span : output.path.span;
     return error;
   }
   const auto files = plan::files_of(plan, frame, index);
@@ -221,8 +234,13 @@ Result<std::vector<LedgerEntry>> write_image_output(
       if (!written) return written.error();
     }
     times += file_times;
-    entries.push_back(
-        {files[part], fingerprint, sha256_hex(*bytes), bytes->size(), {}, encoding_record(meta)});
+    entries.push_back({files[part],
+                       fingerprint,
+                       sha256_hex(*bytes),
+                       bytes->size(),
+                       {},
+                       encoding_record(meta),
+                       light_record(rendered)});
   }
   return entries;
 }

@@ -21,7 +21,8 @@ using nlohmann::json;
 std::string to_line(const LedgerEntry& entry) {
   const json line = {{"path", entry.path},     {"fingerprint", entry.fingerprint},
                      {"sha256", entry.sha256}, {"bytes", entry.bytes},
-                     {"ms", entry.times.ms},   {"encoding", entry.encoding}};
+                     {"ms", entry.times.ms},   {"encoding", entry.encoding},
+                     {"light", entry.light}};
   return line.dump() + "\n";
 }
 
@@ -36,6 +37,7 @@ std::optional<LedgerEntry> from_line(const std::string& text) {
     entry.bytes = line.at("bytes");
     entry.times.ms = line.at("ms");
     entry.encoding = line.at("encoding").get<std::map<std::string, double>>();
+    entry.light = line.at("light").get<std::map<std::string, double>>();
   } catch (const json::exception&) {
     return {};
   }
@@ -100,6 +102,12 @@ Status Ledger::record(const LedgerEntry& entry) {
     return output::write_error(own_file_, written < 0 ? errno : ENOSPC);
   entries_[{entry.path, entry.fingerprint}] = entry;
   return Done{};
+}
+
+bool Ledger::knows(const std::string& path) const {
+  const std::lock_guard lock(*mutex_);
+  const auto entry = entries_.lower_bound({path, ""});
+  return entry != entries_.end() && entry->first.first == path;
 }
 
 std::optional<LedgerEntry> Ledger::find(const std::string& path,

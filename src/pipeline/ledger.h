@@ -17,8 +17,8 @@ struct LedgerEntry {
   std::string sha256;
   uintmax_t bytes = 0;
   StageTimes times;  // sky and disc of the frame, the rest of the file's own output
-  /// What encoding did to the picture, as "name": value pairs for the manifest (sun policy).
-  std::map<std::string, double> encoding;
+  /// What encoding did to the picture (sun policy), and the light of the frame: for the manifest.
+  std::map<std::string, double> encoding, light;
 };
 
 /// Lines of JSON in OUT/.skylapse, one file per writing process, appended in one write each. A torn
@@ -40,6 +40,9 @@ class Ledger {
   /// The entry as recorded, the file not looked at.
   [[nodiscard]] std::optional<LedgerEntry> find(const std::string& path,
                                                 const std::string& fingerprint) const;
+
+  /// True if any record names the path, whatever its fingerprint: a quick no for most frames.
+  [[nodiscard]] bool knows(const std::string& path) const;
 
   /// Reads again what other processes have recorded meanwhile.
   Status refresh();

@@ -1,10 +1,15 @@
 #include "pipeline/manifest.h"
 
+#include <cerrno>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "color/exposure.h"
+#include "color/rgb_space.h"
 #include "core/constants.h"
 #include "core/version.h"
 #include "output/atomic_file.h"
+#include "output/sun_policy.h"
 #include "pipeline/movie_pass.h"
 #include "plan/effect_planner.h"
 
@@ -32,38 +37,112 @@ ordered_json entry_json(const LedgerEntry& entry) {
   return file;
 }
 
-ordered_json effects_json(const JobContext& job, const plan::Frame& frame) {
-  auto effects = ordered_json::array();
-  for (const auto& decision : plan::decide_effects(job.plan.job, frame))
-    if (decision.on) effects.push_back(name_of(decision.effect));
-  return effects;
+ordered_json sites_json(const config::JobConfig& job) {
+  auto sites = ordered_json::array();
+  for (const config::Site& site : job.sites) {
+    const auto& zone = site.zone ? site.zone : job.time.zone;
+    sites.push_back({{"name", site.name},
+                     {"latitude_deg", site.position.latitude.in(deg)},
+                     {"longitude_deg", site.position.longitude.in(deg)},
+                     {"height_m", site.position.height.in(metre)},
+                     {"zone", zone ? zone->value : "UTC"}});
+  }
+  return sites;
 }
 
-/// The finished files of a frame; `complete` becomes false if one is missing.
-ordered_json files_json(const JobContext& job, const plan::Frame& frame, bool& complete) {
-  auto files = ordered_json::array();
+ordered_json cameras_json(const config::JobConfig& job) {
+  constexpr std::array kProjections{"perspective",       "fisheye-equidistant",
+                                    "fisheye-equisolid", "fisheye-stereographic",
+                                    "lat-long",          "cube"};
+  auto cameras = ordered_json::array();
+  for (const config::CameraConfig& camera : job.cameras) {
+    const glm::dvec3 forward = camera.camera.camera_to_enu[2];
+    const auto direction = Direction<Enu>::from_vector(forward);
+    cameras.push_back({{"name", camera.name},
+                       {"projection", kProjections[size_t(camera.camera.projection)]},
+                       {"width", camera.camera.width},
+                       {"height", camera.camera.height},
+                       {"field_of_view_deg", camera.camera.field_of_view.in(deg)},
+                       {"azimuth_deg", azimuth(direction).in(deg)},
+                       {"elevation_deg", elevation(direction).in(deg)}});
+  }
+  return cameras;
+}
+
+ordered_json outputs_json(const config::JobConfig& job) {
+  constexpr std::array kTypes{"u8", "u16", "half", "float"};
+  auto outputs = ordered_json::array();
+  for (const config::Output& output : job.outputs) {
+    ordered_json o;
+    if (const auto* image = std::get_if<config::ImageOutput>(&output)) {
+      o = {{"image", image->path.value},
+           {"format", image->format},
+           {"type", kTypes[size_t(image->sample_type)]}};
+      if (image->sample_type == output::SampleType::half_float)
+        o["sun"] = output::sun_policy_name(image->sun_policy);
+      if (image->display) o["display"] = *image->display;
+      if (image->view) o["view"] = *image->view;
+      o["scene_linear"] = !image->display && !image->view;
+    } else {
+      const auto& movie = std::get<config::MovieOutput>(output);
+      o = {{"movie", movie.path.value}, {"fps", movie.frames_per_second}, {"crf", movie.crf}};
+      if (movie.display) o["display"] = *movie.display;
+      if (movie.view) o["view"] = *movie.view;
+    }
+    outputs.push_back(std::move(o));
+  }
+  return outputs;
+}
+
+ordered_json color_json(const config::JobConfig& job) {
+  ordered_json color{{"space", job.color.space}, {"white_luminance_cd_m2", kLuminousEfficacy}};
+  if (const auto space = color::rgb_space_from_name(job.color.space))
+    color["chromaticities"] = color::exr_chromaticities(*space);
+  return color;
+}
+
+ordered_json exposure_json(double ev) {
+  return {{"ev100", ev},
+          {"exposure_time_s", color::exposure_time_at_f8(ev).in(second)},
+          {"aperture", 8},
+          {"iso", 100}};
+}
+
+/// The finished files of a frame with the light they were made with.
+struct FrameFiles {
+  ordered_json files = ordered_json::array();
+  std::map<std::string, double> light;
+  bool complete = true;
+};
+
+FrameFiles files_of_frame(const JobContext& job, const plan::Frame& frame) {
+  FrameFiles found;
   for (size_t o = 0; o < job.plan.job.outputs.size(); ++o) {
     if (!std::holds_alternative<config::ImageOutput>(job.plan.job.outputs[o])) continue;
-    const std::string print = job.fingerprint(frame, o);
-    for (const auto& path : plan::files_of(job.plan, frame, o)) {
-      if (const auto entry = job.ledger.find(path, print))
-        files.push_back(entry_json(*entry));
-      else
-        complete = false;
+    const auto paths = plan::files_of(job.plan, frame, o);
+    const std::string print =
+        job.ledger.knows(paths.front()) ? job.fingerprint(frame, o) : std::string();
+    for (const auto& path : paths) {
+      const auto entry = job.ledger.find(path, print);
+      found.complete = found.complete && entry;
+      if (!entry) continue;
+      found.files.push_back(entry_json(*entry));
+      found.light = entry->light;
     }
   }
-  return files;
+  return found;
 }
 
-ordered_json frame_json(const JobContext& job, const plan::Frame& frame) {
+ordered_json frame_json(const JobContext& job, const plan::Frame& frame, const FrameFiles& found) {
   const config::JobConfig& config = job.plan.job;
   ordered_json sun = direction_json(frame.sky.sun_apparent, frame.sky.sun_true);
   sun["distance_au"] = frame.sky.sun_distance.in(astronomical_unit);
   sun["radius_deg"] = frame.sky.sun_radius.in(deg);
   ordered_json moon = direction_json(frame.sky.moon_apparent, frame.sky.moon_true);
   moon["illuminated_fraction"] = frame.sky.moon_illuminated_fraction;
-  bool complete = true;
-  ordered_json files = files_json(job, frame, complete);
+  auto effects = ordered_json::array();
+  for (const auto& decision : plan::decide_effects(config, frame))
+    if (decision.on) effects.push_back(name_of(decision.effect));
   return {{"frame", frame.index},
           {"site", config.sites[frame.site].name},
           {"camera", config.cameras[frame.camera].name},
@@ -71,14 +150,57 @@ ordered_json frame_json(const JobContext& job, const plan::Frame& frame) {
           {"local", format_local(frame.local)},
           {"sun", sun},
           {"moon", moon},
-          {"exposure_ev100", frame.ev},
+          {"exposure", exposure_json(frame.ev)},
           {"model", "hosek-wilkie"},
           {"extrapolated", frame.sun.extrapolated},
           {"turbidity", config.air.turbidity[frame.turbidity].value},
           {"ground_albedo", config.air.ground_albedo[frame.albedo].value.name},
-          {"effects", effects_json(job, frame)},
-          {"complete", complete},
-          {"files", files}};
+          {"effects", effects},
+          {"light", found.light},
+          {"complete", found.complete},
+          {"files", found.files}};
+}
+
+/// Everything but the frames.
+ordered_json head_json(const JobContext& job) {
+  const config::JobConfig& config = job.plan.job;
+  auto movies = ordered_json::array();
+  for (const Movie& movie : movies_of(job.plan))
+    if (job.ledger.knows(movie.path))
+      if (const auto entry = job.ledger.find(movie.path, fingerprint_of(job, movie)))
+        movies.push_back(entry_json(*entry));
+  return {{"program", "skylapse"},
+          {"version", kVersion},
+          {"source_hash", kSourceHash},
+          {"config", config.file},
+          {"title", config.title},
+          {"sites", sites_json(config)},
+          {"cameras", cameras_json(config)},
+          {"outputs", outputs_json(config)},
+          {"color", color_json(config)},
+          {"model_reason", job.plan.model_reason},
+          {"notes", job.plan.notes},
+          {"movies", movies},
+          {"frames_total", job.plan.frames.size()}};
+}
+
+/// One frame a line, written as it is made: a long job's manifest is larger than its plan.
+void stream_manifest(const JobContext& job, std::ostream& out) {
+  std::string head = head_json(job).dump(1);
+  head.erase(head.find_last_of('}'));
+  head.erase(head.find_last_not_of(" \n") + 1);
+  out << head << ",\n \"frames\": [";
+  size_t complete = 0;
+  bool first = true;
+  for (const plan::Frame& frame : job.plan.frames) {
+    const FrameFiles found = files_of_frame(job, frame);
+    complete += found.complete ? 1 : 0;
+    if (found.files.empty() && !found.complete) continue;  // nothing to tell yet
+    out << (first ? "\n  " : ",\n  ") << frame_json(job, frame, found).dump();
+    first = false;
+  }
+  out << "\n ],\n \"frames_complete\": " << complete
+      << ",\n \"complete\": " << (complete == job.plan.frames.size() ? "true" : "false") << "\n}\n";
 }
 
 }  // namespace
@@ -88,33 +210,17 @@ Status write_manifest(const JobContext& job) {
   if (!lock) return lock.error();
   const Status refreshed = job.ledger.refresh();
   if (!refreshed) return refreshed;
-  auto frames = ordered_json::array();
-  long done = 0;
-  for (const plan::Frame& frame : job.plan.frames) {
-    frames.push_back(frame_json(job, frame));
-    done += frames.back()["complete"].get<bool>() ? 1 : 0;
-  }
-  auto movies = ordered_json::array();
-  for (const Movie& movie : movies_of(job.plan))
-    if (const auto entry = job.ledger.find(movie.path, fingerprint_of(job, movie)))
-      movies.push_back(entry_json(*entry));
-  const ordered_json manifest{{"program", "skylapse"},
-                              {"version", kVersion},
-                              {"source_hash", kSourceHash},
-                              {"config", job.plan.job.file},
-                              {"title", job.plan.job.title},
-                              {"color_space", job.plan.job.color.space},
-                              {"white_luminance_cd_m2", kLuminousEfficacy},
-                              {"model_reason", job.plan.model_reason},
-                              {"notes", job.plan.notes},
-                              {"frames_total", job.plan.frames.size()},
-                              {"frames_complete", done},
-                              {"complete", done == long(job.plan.frames.size())},
-                              {"movies", movies},
-                              {"frames", frames}};
-  const std::string text = manifest.dump(1) + "\n";
-  return output::write_file_atomically(job.options.output / "manifest.json",
-                                       std::as_bytes(std::span(text.data(), text.size())));
+  const std::filesystem::path file = job.options.output / "manifest.json";
+  const std::filesystem::path temporary = output::temporary_beside(file);
+  errno = 0;
+  std::ofstream out(temporary, std::ios::binary);
+  stream_manifest(job, out);
+  out.close();
+  if (out) return output::publish(temporary, file);
+  const int reason = errno != 0 ? errno : EIO;
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  return output::write_error(file, reason);
 }
 
 }  // namespace skylapse::pipeline

@@ -116,7 +116,7 @@ Status encode_movie(const JobContext& job, const Movie& movie, RunSummary& summa
   if (!bytes) return bytes.error();
   summary.bytes_written += bytes->size();
   return job.ledger.record(
-      {movie.path, fingerprint_of(job, movie), sha256_hex(*bytes), bytes->size(), {}, {}});
+      {movie.path, fingerprint_of(job, movie), sha256_hex(*bytes), bytes->size(), {}, {}, {}});
 }
 
 bool frames_ready(const JobContext& job, const Movie& movie) {

@@ -176,15 +176,17 @@ std::string JobContext::fingerprint(const plan::Frame& frame, size_t output) con
 }
 
 bool JobContext::finished(const plan::Frame& frame, size_t output) const {
-  const std::string print = fingerprint(frame, output);
   const auto files = plan::files_of(plan, frame, output);
+  if (!ledger.knows(files.front())) return false;
+  const std::string print = fingerprint(frame, output);
   return std::all_of(files.begin(), files.end(),
                      [&](const std::string& file) { return ledger.finished(file, print); });
 }
 
 bool JobContext::recorded(const plan::Frame& frame, size_t output) const {
-  const std::string print = fingerprint(frame, output);
   const auto files = plan::files_of(plan, frame, output);
+  if (!ledger.knows(files.front())) return false;
+  const std::string print = fingerprint(frame, output);
   return std::all_of(files.begin(), files.end(),
                      [&](const std::string& file) { return ledger.find(file, print); });
 }

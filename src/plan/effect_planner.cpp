@@ -38,7 +38,7 @@ EffectDecision decide_twilight(const Frame& frame) {
   if (!frame.sun.extrapolated)
     return {Effect::twilight_continuation, false, "the sun is above the horizon"};
   return {Effect::twilight_continuation, true,
-          fmt::format("the model ends at sun elevation 0: shape held, level {:.3g}",
+          fmt::format("the model ends at the horizon: shape held, level {:.3g}",
                       frame.sun.twilight_level)};
 }
 

@@ -33,7 +33,7 @@ TEST(SunPolicy, ClipCountsPixelsAndTheLostShare) {
   auto frame = with_sun(1.0e6f);
   const auto record = apply_sun_policy(frame, SunPolicy::clip);
   ASSERT_TRUE(record.ok());
-  EXPECT_EQ(record->clipped_pixels, 1);
+  EXPECT_EQ(record->pixels_beyond_half, 1);
   EXPECT_EQ(frame.pixel(2, 1)[0], 65504.0f);
   EXPECT_EQ(frame.pixel(0, 0)[0], 10.0f);
   const double before = 21 * 10.0 + 3 * 1.0e6;
@@ -77,7 +77,7 @@ TEST(SunPolicy, SplitLeavesTheSkyAndRecordsTheDiscsShare) {
   const auto record = apply_sun_policy(frame, SunPolicy::split, &sky);
   ASSERT_TRUE(record.ok());
   EXPECT_EQ(frame.data(), sky.data());
-  EXPECT_EQ(record->clipped_pixels, 0);
+  EXPECT_EQ(record->pixels_beyond_half, 0);
   EXPECT_NEAR(record->lost_fraction, 1.0 - 240.0 / (210.0 + 3.0e6), 1e-12);
 }
 
@@ -86,7 +86,7 @@ TEST(SunPolicy, NanIsNeitherCountedNorChanged) {
   EXPECT_FALSE(exceeds_half(frame));
   const auto record = apply_sun_policy(frame, SunPolicy::clip);
   ASSERT_TRUE(record.ok());
-  EXPECT_EQ(record->clipped_pixels, 0);
+  EXPECT_EQ(record->pixels_beyond_half, 0);
   EXPECT_TRUE(std::isnan(frame.pixel(2, 1)[2]));
 }
 

@@ -12,7 +12,7 @@ LedgerEntry write_file(const std::filesystem::path& folder, const std::string& n
                        const std::string& text, const std::string& fingerprint) {
   const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
   EXPECT_TRUE(output::write_file_atomically(folder / name, bytes).ok());
-  return {name, fingerprint, sha256_hex(text), text.size(), {}, {}};
+  return {name, fingerprint, sha256_hex(text), text.size(), {}, {}, {}};
 }
 
 TEST(Ledger, RemembersFinishedFilesAcrossProcesses) {

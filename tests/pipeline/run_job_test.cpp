@@ -116,6 +116,68 @@ TEST(RunJob, PartOfTheFramesLeavesTheMovieOutAndSaysSo) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "p.mp4"));
 }
 
+TEST(RunJob, TheManifestCarriesWhatFormatsWithoutMetadataCannot) {
+  const auto plan = plan_of_text(small_scene("{image: \"p.####.hdr\"}"));
+  const TemporaryFolder folder;
+  ASSERT_TRUE(run_job(plan, options_for(plan, folder.path())).ok());
+  const auto manifest = manifest_of(folder.path());
+  EXPECT_EQ(manifest["sites"][0]["zone"], "Europe/Prague");
+  EXPECT_NEAR(manifest["sites"][0]["latitude_deg"], 50.0755, 1e-9);
+  EXPECT_NEAR(manifest["sites"][0]["height_m"], 235, 1e-9);
+  EXPECT_EQ(manifest["color"]["chromaticities"].size(), 8u);
+  EXPECT_EQ(manifest["color"]["white_luminance_cd_m2"], 683);
+  EXPECT_EQ(manifest["outputs"][0]["format"], "hdr");
+  EXPECT_EQ(manifest["cameras"][0]["width"], 96);
+  EXPECT_NEAR(manifest["cameras"][0]["azimuth_deg"], 60, 1e-9);
+  const auto& last = manifest["frames"].back();
+  EXPECT_GT(last["exposure"]["exposure_time_s"], 0);
+  EXPECT_GT(last["light"]["sky_horizontal_lux"], 100);
+  EXPECT_GT(last["light"]["sun_normal_lux"], 100);
+}
+
+TEST(RunJob, SunPoliciesAreRecordedWithWhatTheyCost) {
+  const auto scene = [](const std::string& policy) {
+    auto text = small_scene("{image: \"p.####.exr\", type: half, sun: " + policy + "}");
+    // An hour past sunrise, looking at the sun.
+    text.replace(text.find("sunrise + 30 min"), 16, "sunrise + 90 min");
+    text.replace(text.find("azimuth: 60 deg"), 15, "azimuth: 62 deg");
+    return text;
+  };
+  std::map<std::string, nlohmann::json> records;
+  for (const std::string policy : {"clip", "scale", "split"}) {
+    const auto plan = plan_of_text(scene(policy));
+    const TemporaryFolder folder;
+    auto options = options_for(plan, folder.path());
+    options.frames = {long(plan.frames.size())};
+    ASSERT_TRUE(run_job(plan, options).ok());
+    records[policy] = manifest_of(folder.path())["frames"][0]["files"][0]["encoding"];
+  }
+  EXPECT_GT(records["clip"]["lost_fraction"], 0.01);
+  EXPECT_GT(records["clip"]["pixels_beyond_half"], 0);
+  EXPECT_LT(records["scale"]["scale"], 1);
+  EXPECT_EQ(records["scale"]["lost_fraction"], 0);
+  EXPECT_GT(records["split"]["lost_fraction"], 0.01);
+  const auto plan = plan_of_text(scene("refuse"));
+  const TemporaryFolder folder;
+  const auto refused = run_job(plan, options_for(plan, folder.path()));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::invalid_input);
+}
+
+TEST(RunJob, TheManifestOfAPartListsThatPart) {
+  const auto plan = plan_of_text(small_scene("{image: \"p.####.png\"}"));
+  const TemporaryFolder folder;
+  auto options = options_for(plan, folder.path());
+  options.frames = {2, 5};
+  ASSERT_TRUE(run_job(plan, options).ok());
+  const auto manifest = manifest_of(folder.path());
+  ASSERT_EQ(manifest["frames"].size(), 2u);
+  EXPECT_EQ(manifest["frames"][1]["frame"], 5);
+  EXPECT_EQ(manifest["frames_total"], 6);
+  EXPECT_EQ(manifest["frames_complete"], 2);
+  EXPECT_FALSE(manifest["complete"]);
+}
+
 TEST(RunJob, AStopSignalKeepsFinishedFrames) {
   const auto plan = plan_of_text(small_scene(kOutputs));
   const TemporaryFolder folder;
