@@ -76,6 +76,8 @@ class OutputReader {
     out.path = {path_, context_.sources.span(section_.place_of(path_key_))};
     out.format = known->second;
     read_type(out);
+    out.view_span = view_span();
+    out.sun_policy_span = span_of_first({"sun"});
     read_view(out);
     read_sun(out);
     read_compression(out);
@@ -100,6 +102,7 @@ class OutputReader {
     if (const auto crf = section_.get<long>("crf")) out.crf = int(*crf);
     out.display = section_.get<std::string>("display");
     out.view = section_.get<std::string>("view").value_or("");
+    out.view_span = view_span();
     check_movie_names();
     return out;
   }
@@ -108,6 +111,13 @@ class OutputReader {
   [[nodiscard]] bool has_token(std::string_view name) const {
     return std::find(tokens_.begin(), tokens_.end(), name) != tokens_.end();
   }
+  /// The value of the first of these keys that is written, else the path.
+  [[nodiscard]] SourceSpan span_of_first(std::initializer_list<std::string_view> keys) const {
+    for (const std::string_view key : keys)
+      if (section_.has(key)) return context_.sources.span(section_.place_of(key));
+    return context_.sources.span(section_.place_of(path_key_));
+  }
+  [[nodiscard]] SourceSpan view_span() const { return span_of_first({"view", "display"}); }
   void refuse_path(std::string message, std::string hint) {
     context_.errors.add(section_.place_of(path_key_),
                         fmt::format("{}: {}", section_.path_of(path_key_), message),

@@ -112,6 +112,8 @@ struct ImageOutput {
   std::optional<std::string> display, view;
   int quality = 92;                 // jpeg
   std::string compression = "zip";  // exr: none, zip, zips, piz, dwaa
+  // The values of `view` (else `display`) and `sun`; where they are not written, the path.
+  SourceSpan view_span{}, sun_policy_span{};
 };
 
 struct MovieOutput {
@@ -119,6 +121,7 @@ struct MovieOutput {
   double frames_per_second = 30;
   std::optional<std::string> display, view;  // always display-referred: there is a view
   int crf = 18;
+  SourceSpan view_span{};  // of `view`, else `display`, else the path
 };
 
 using Output = std::variant<ImageOutput, MovieOutput>;

@@ -195,6 +195,22 @@ TEST(LoadJob, FormatsDecideWhatIsDisplayReferred) {
   EXPECT_EQ(image("PNG, type: u16").sample_type, output::SampleType::u16);
 }
 
+TEST(LoadJob, OutputsKeepThePlacesOfTheirViewAndSun) {
+  const auto output = [](const std::string& text) {
+    return job_of(with(kSmallJob, "{image: sky.####.png}", text)).outputs.at(0);
+  };
+  const auto image = [&](const std::string& text) { return std::get<ImageOutput>(output(text)); };
+  const auto movie = [&](const std::string& text) { return std::get<MovieOutput>(output(text)); };
+  EXPECT_EQ(test::underlined(image("{image: '####.exr', view: Raw}").view_span), "Raw");
+  EXPECT_EQ(test::underlined(image("{image: '####.exr', display: sRGB}").view_span), "sRGB");
+  EXPECT_EQ(test::underlined(image("{image: '####.png'}").view_span), "####.png");
+  const ImageOutput half = image("{image: '####.exr', type: half, sun: refuse}");
+  EXPECT_EQ(test::underlined(half.sun_policy_span), "refuse");
+  EXPECT_EQ(test::underlined(image("{image: '####.exr'}").sun_policy_span), "####.exr");
+  EXPECT_EQ(test::underlined(movie("{movie: day.mp4, view: Raw}").view_span), "Raw");
+  EXPECT_EQ(test::underlined(movie("{movie: day.mp4}").view_span), "day.mp4");
+}
+
 TEST(LoadJob, AnExposureValueMeansModeFixed) {
   const auto exposure =
       job_of(kSmallJob + "exposure: {ev: 14.5 EV, compensation: -0.5}\n").exposure;
