@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "astro/event_search.h"
@@ -63,20 +64,33 @@ class Sky {
     return ephemeris_.sun_state(at(t), observer_, kAirless).sun_true;
   }
   const Ephemeris& ephemeris_;
-  const GeodeticPosition& observer_;
+  GeodeticPosition observer_;
   Instant origin_;
 };
 
-/// Sorts the crossings of one level into the pair of events, with the state of an absent one.
-void set_pair(DayEvents& day, const Sky& sky, const SampledCurve& curve, double level,
-              EventKind rising, EventKind falling) {
-  EventTimes& up = day.events[static_cast<size_t>(rising)];
-  EventTimes& down = day.events[static_cast<size_t>(falling)];
+/// The same ephemeris with the sun on its own side of the meridian, where preetham's arctan loses
+/// it; elevations are the same. Nothing if `ephemeris` knows the side.
+std::optional<Ephemeris> full_circle_of(const Ephemeris& ephemeris) {
+  if (ephemeris.options().algorithm != SunAlgorithm::preetham) return std::nullopt;
+  EphemerisOptions options = ephemeris.options();
+  options.algorithm = SunAlgorithm::preetham_atan2;
+  return Ephemeris(options);
+}
+
+struct RiseAndSet {
+  EventTimes rising, setting;
+};
+
+/// Sorts the crossings of one level, with the state of an absent one.
+RiseAndSet rise_and_set(const Sky& sky, const SampledCurve& curve, double level) {
+  RiseAndSet found;
+  auto& [up, down] = found;
   for (const SampledCurve::Crossing& c : curve.crossings(level))
     (c.rising ? up : down).times.push_back(sky.at(c.time_s));
   if (up.times.empty() && down.times.empty())
     up.absent = down.absent =
         curve.value_at_begin() < level ? AbsentEvent::below : AbsentEvent::above;
+  return found;
 }
 
 /// Extreme of the samples at whole minutes after the day's start, both bounds of the day included;
@@ -112,47 +126,100 @@ std::optional<EventKind> event_kind_from_name(const std::string& name) {
   return std::nullopt;
 }
 
+/// What the events of a day are read off, each made when first asked for.
+struct DayEventSearch::Curves {
+  Curves(const Ephemeris& ephemeris, const GeodeticPosition& observer, const CivilDay& day)
+      : full_circle(full_circle_of(ephemeris)),
+        sky(full_circle ? *full_circle : ephemeris, observer, day.start),
+        length_s((day.end - day.start).in(second)) {}
+
+  const SampledCurve& sun_elevation() {
+    return made(elevation_, [this](double t) { return sky.sun_elevation(t); });
+  }
+
+  RiseAndSet sun_at(Angle level) { return rise_and_set(sky, sun_elevation(), level.in(deg)); }
+
+  RiseAndSet moon() {
+    return rise_and_set(sky, made(moon_, [this](double t) { return sky.moon_limb(t); }), 0);
+  }
+
+  EventTimes meridian_passages(bool at_noon) {
+    EventTimes found;
+    const SampledCurve& east = made(east_, [this](double t) { return sky.sun_east(t); });
+    for (const SampledCurve::Crossing& c : east.crossings(0))
+      if (c.rising != at_noon) found.times.push_back(sky.at(c.time_s));
+    return found;
+  }
+
+  const std::optional<Ephemeris> full_circle;  // `sky` refers to it, if there is one
+  const Sky sky;
+  const double length_s;
+
+ private:
+  const SampledCurve& made(std::optional<SampledCurve>& curve, TimeFunction f) const {
+    if (!curve) curve.emplace(std::move(f), 0, length_s, kStepSeconds);
+    return *curve;
+  }
+  std::optional<SampledCurve> elevation_, east_, moon_;  // their functions refer to `sky`
+};
+
+DayEventSearch::DayEventSearch(const Ephemeris& ephemeris, const GeodeticPosition& observer,
+                               const CivilDay& day)
+    : curves_(std::make_unique<Curves>(ephemeris, observer, day)) {}
+DayEventSearch::~DayEventSearch() = default;
+DayEventSearch::DayEventSearch(DayEventSearch&&) noexcept = default;
+DayEventSearch& DayEventSearch::operator=(DayEventSearch&&) noexcept = default;
+
+EventTimes DayEventSearch::times_of(EventKind kind) {
+  for (const TwilightLevel& l : kSunLevels) {
+    if (kind == l.rising) return curves_->sun_at(l.level).rising;
+    if (kind == l.setting) return curves_->sun_at(l.level).setting;
+  }
+  switch (kind) {
+    case EventKind::solar_noon:
+      return curves_->meridian_passages(true);
+    case EventKind::solar_midnight:
+      return curves_->meridian_passages(false);
+    case EventKind::moonrise:
+      return curves_->moon().rising;
+    default:
+      assert(kind == EventKind::moonset);
+      return curves_->moon().setting;
+  }
+}
+
 DayEvents day_events(const Ephemeris& ephemeris, const GeodeticPosition& observer,
                      const CivilDay& day) {
-  if (ephemeris.options().algorithm == SunAlgorithm::preetham) {
-    // Its arctan loses on which side of the meridian the sun stands; elevations are the same.
-    EphemerisOptions full_circle = ephemeris.options();
-    full_circle.algorithm = SunAlgorithm::preetham_atan2;
-    return day_events(Ephemeris(full_circle), observer, day);
-  }
   DayEvents result{.day = day, .events = {}, .sun_elevation_max = {}, .sun_elevation_min = {}};
-  const double length = (day.end - day.start).in(second);
-  const Sky sky(ephemeris, observer, day.start);
-
-  const SampledCurve elevation_curve([&](double t) { return sky.sun_elevation(t); }, 0, length,
-                                     kStepSeconds);
-  for (const TwilightLevel& l : kSunLevels)
-    set_pair(result, sky, elevation_curve, l.level.in(deg), l.rising, l.setting);
-  result.sun_elevation_max = minute_extreme(sky, elevation_curve, length, +1);
-  result.sun_elevation_min = minute_extreme(sky, elevation_curve, length, -1);
-
-  const SampledCurve east([&](double t) { return sky.sun_east(t); }, 0, length, kStepSeconds);
-  for (const SampledCurve::Crossing& c : east.crossings(0)) {
-    const EventKind kind = c.rising ? EventKind::solar_midnight : EventKind::solar_noon;
-    result.events[static_cast<size_t>(kind)].times.push_back(sky.at(c.time_s));
-  }
-
-  const SampledCurve moon([&](double t) { return sky.moon_limb(t); }, 0, length, kStepSeconds);
-  set_pair(result, sky, moon, 0, EventKind::moonrise, EventKind::moonset);
+  DayEventSearch search(ephemeris, observer, day);
+  for (int kind = 0; kind < kEventKindCount; ++kind)
+    result.events[size_t(kind)] = search.times_of(EventKind(kind));
+  DayEventSearch::Curves& curves = *search.curves_;
+  result.sun_elevation_max =
+      minute_extreme(curves.sky, curves.sun_elevation(), curves.length_s, +1);
+  result.sun_elevation_min =
+      minute_extreme(curves.sky, curves.sun_elevation(), curves.length_s, -1);
   return result;
 }
 
 std::vector<LevelCrossing> sun_level_crossings(const Ephemeris& ephemeris,
                                                const GeodeticPosition& observer, Instant from,
-                                               Instant to, Angle level) {
+                                               Instant to, const std::vector<Angle>& levels) {
   const double length = (to - from).in(second);
   if (!(length > 0)) return {};
   const Sky sky(ephemeris, observer, from);
   const SampledCurve curve([&](double t) { return sky.sun_elevation(t); }, 0, length, kStepSeconds);
   std::vector<LevelCrossing> found;
-  for (const SampledCurve::Crossing& c : curve.crossings(level.in(deg)))
-    if (c.time_s > 0) found.push_back({sky.at(c.time_s), c.rising});
+  for (const Angle level : levels)
+    for (const SampledCurve::Crossing& c : curve.crossings(level.in(deg)))
+      if (c.time_s > 0) found.push_back({sky.at(c.time_s), c.rising});
   return found;
+}
+
+std::vector<LevelCrossing> sun_level_crossings(const Ephemeris& ephemeris,
+                                               const GeodeticPosition& observer, Instant from,
+                                               Instant to, Angle level) {
+  return sun_level_crossings(ephemeris, observer, from, to, std::vector<Angle>{level});
 }
 
 }  // namespace skylapse::astro

@@ -1,6 +1,7 @@
 #pragma once
 // Rise, set, meridian passages and twilights of one local civil day.
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,6 +52,23 @@ struct DayEvents {
 DayEvents day_events(const Ephemeris& ephemeris, const GeodeticPosition& observer,
                      const CivilDay& day);
 
+/// The same, for those events alone that are asked for: a search of each of the sun's elevation,
+/// its meridian passages and the moon is made when first needed. Times equal those of day_events.
+/// `ephemeris` must outlive it.
+class DayEventSearch {
+ public:
+  DayEventSearch(const Ephemeris& ephemeris, const GeodeticPosition& observer, const CivilDay& day);
+  ~DayEventSearch();
+  DayEventSearch(DayEventSearch&&) noexcept;
+  DayEventSearch& operator=(DayEventSearch&&) noexcept;
+  [[nodiscard]] EventTimes times_of(EventKind kind);
+
+ private:
+  friend DayEvents day_events(const Ephemeris&, const GeodeticPosition&, const CivilDay&);
+  struct Curves;
+  std::unique_ptr<Curves> curves_;
+};
+
 /// Every instant in (`from`, `to`) at which the sun's true centre crosses `level`, in order; a
 /// path that only touches the level from one side does not cross it.
 struct LevelCrossing {
@@ -60,5 +78,9 @@ struct LevelCrossing {
 std::vector<LevelCrossing> sun_level_crossings(const Ephemeris& ephemeris,
                                                const GeodeticPosition& observer, Instant from,
                                                Instant to, Angle level);
+/// The same for several levels at the cost of one search; by level, then time.
+std::vector<LevelCrossing> sun_level_crossings(const Ephemeris& ephemeris,
+                                               const GeodeticPosition& observer, Instant from,
+                                               Instant to, const std::vector<Angle>& levels);
 
 }  // namespace skylapse::astro

@@ -181,6 +181,39 @@ TEST(Events, FlawedAzimuthFormulaStillFindsNoonAsItsElevationsDo) {
   EXPECT_LT(std::abs((flawed[0] - noon(SunAlgorithm::erfa).at(0)).in(minute)), 2);
 }
 
+TEST(DayEventSearch, FindsEachEventAloneExactlyAsAllTogether) {
+  const Zone zone = *Zone::find("Europe/Prague");
+  for (const SunAlgorithm algorithm : {SunAlgorithm::erfa, SunAlgorithm::preetham})
+    for (const double latitude : {50.0755, 78.2})
+      for (const char* date : {"2026-06-21", "2026-03-29", "2026-12-05"}) {
+        const Ephemeris ephemeris({.algorithm = algorithm});
+        const GeodeticPosition place{latitude * deg, 14.4378 * deg, 235.0 * metre};
+        const CivilDay day = *zone.civil_day(date_of(date));
+        const DayEvents all = day_events(ephemeris, place, day);
+        for (int k = 0; k < kEventKindCount; ++k) {
+          const auto kind = EventKind(k);
+          const EventTimes alone = DayEventSearch(ephemeris, place, day).times_of(kind);
+          EXPECT_EQ(alone.times, all.of(kind).times) << name_of(kind) << " " << date;
+          EXPECT_EQ(alone.absent, all.of(kind).absent) << name_of(kind) << " " << date;
+        }
+      }
+}
+
+TEST(SunLevelCrossings, SeveralLevelsTogetherAreThoseOfEachLevel) {
+  const Ephemeris ephemeris;
+  const GeodeticPosition prague{50.0755 * deg, 14.4378 * deg, 235.0 * metre};
+  const Instant from = utc("2026-06-21T00:00Z"), to = utc("2026-06-23T00:00Z");
+  const auto together =
+      sun_level_crossings(ephemeris, prague, from, to, std::vector<Angle>{10.0 * deg, 30.0 * deg});
+  ASSERT_EQ(together.size(), 8u);
+  for (size_t i = 0; i < together.size(); ++i) {
+    const auto alone =
+        sun_level_crossings(ephemeris, prague, from, to, (i < 4 ? 10.0 : 30.0) * deg);
+    EXPECT_EQ(together[i].instant, alone.at(i % 4).instant);
+    EXPECT_EQ(together[i].rising, alone.at(i % 4).rising);
+  }
+}
+
 TEST(SunLevelCrossings, RiseAndSinkThroughEveryDegreeInOrder) {
   const Ephemeris ephemeris;
   const GeodeticPosition prague{50.0755 * deg, 14.4378 * deg, 235.0 * metre};
