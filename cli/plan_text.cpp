@@ -55,7 +55,7 @@ Wording wording_of(const std::string& reason) {
   const size_t from = begin > 0 && reason[begin - 1] == '-' ? begin - 1 : begin;
   char* end = nullptr;
   const double number = std::strtod(reason.c_str() + from, &end);
-  const std::string text(reason.c_str() + from, end);
+  const std::string text(reason.c_str() + from, static_cast<const char*>(end));
   const size_t point = text.find('.');
   return {reason.substr(0, from), end, number,
           point == std::string::npos ? 0 : int(text.size() - point - 1)};
