@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <set>
@@ -28,6 +29,27 @@ Result<Shard> checked(const std::string& text, std::optional<long> part,
   if (!part || !parts || *parts < 1 || *parts > 1'000'000 || *part < 1 || *part > *parts)
     return bad_shard(text);
   return Shard{int(*part), int(*parts)};
+}
+
+/// The environment variables of one kind of array job; "" where it has none.
+struct ArrayVariables {
+  const char *id, *count, *first, *step;
+};
+constexpr std::array<ArrayVariables, 2> kArrayVariables{
+    {{"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN",
+      "SLURM_ARRAY_TASK_STEP"},
+     {"JOB_COMPLETION_INDEX", "JOB_COMPLETION_COUNT", "", ""}}};
+
+/// Part (id - first) / step + 1 of `count`; nothing unless that is a part.
+std::optional<Shard> array_part(const std::string& id, const std::string& count,
+                                const std::string& first, const std::string& step) {
+  constexpr long kLargest = 1'000'000'000;
+  const auto i = whole_number(id), n = whole_number(count), from = whole_number(first),
+             by = whole_number(step);
+  if (!i || !n || !from || !by || *i > kLargest || *from < 0 || *i < *from || *by < 1) return {};
+  if ((*i - *from) % *by != 0) return {};
+  const auto shard = checked(id, (*i - *from) / *by + 1, n);
+  return shard ? std::optional(*shard) : std::nullopt;
 }
 
 /// One piece of a frame list: first, last and step.
@@ -66,20 +88,23 @@ Result<std::optional<Shard>> shard_from_environment() {
     const char* value = std::getenv(name);
     return value ? std::optional<std::string>(value) : std::nullopt;
   };
-  const auto read = [](const std::string& id, const std::string& count,
-                       long first) -> Result<std::optional<Shard>> {
-    const auto index = whole_number(id);
-    auto shard = checked(id + " of " + count, index ? std::optional(*index - first + 1) : index,
-                         whole_number(count));
-    if (!shard) return shard.error();
-    return std::optional(*shard);
-  };
-  if (const auto id = variable("SLURM_ARRAY_TASK_ID"))
-    if (const auto count = variable("SLURM_ARRAY_TASK_COUNT"))
-      return read(*id, *count,
-                  whole_number(variable("SLURM_ARRAY_TASK_MIN").value_or("0")).value_or(0));
-  if (const auto id = variable("JOB_COMPLETION_INDEX"))
-    if (const auto count = variable("JOB_COMPLETION_COUNT")) return read(*id, *count, 0);
+  for (const ArrayVariables& names : kArrayVariables) {
+    const auto id = variable(names.id), count = variable(names.count);
+    if (!id || !count) continue;
+    const auto value_or = [&](const char* name, const char* absent) {
+      return *name == '\0' ? absent : variable(name).value_or(absent);
+    };
+    const std::string first = value_or(names.first, "0"), step = value_or(names.step, "1");
+    const auto shard = array_part(*id, *count, first, step);
+    if (shard) return std::optional(*shard);
+    std::string message = fmt::format("{}={}, {}={}", names.id, *id, names.count, *count);
+    if (*names.first != '\0')
+      message += fmt::format(", {}={}, {}={}", names.first, first, names.step, step);
+    return Error{ErrorCode::invalid_input,
+                 message + " name no part of an array job",
+                 {},
+                 "number the array evenly, as 0-7 or 0-14:2, or give --shard PART/PARTS"};
+  }
   return std::optional<Shard>{};
 }
 

@@ -17,8 +17,10 @@ struct Shard {
 /// "2/8". Parts count from 1.
 Result<Shard> parse_shard(const std::string& text);
 
-/// The shard that an array job's environment names: SLURM_ARRAY_TASK_ID (with _MIN and _COUNT) or
-/// JOB_COMPLETION_INDEX and JOB_COMPLETION_COUNT; nothing if neither is set.
+/// The shard that an array job's environment names: SLURM_ARRAY_TASK_ID (with _MIN, _STEP and
+/// _COUNT: part (ID - MIN) / STEP + 1 of COUNT) or JOB_COMPLETION_INDEX and
+/// JOB_COMPLETION_COUNT; nothing if neither is set. Values that name no part are an error that
+/// shows the variables.
 Result<std::optional<Shard>> shard_from_environment();
 
 /// Frame numbers from "10-50x5,3,100-": ascending, each once, inside 1..count.

@@ -49,9 +49,34 @@ TEST(Shard, ArrayJobsNameTheirPart) {
   EXPECT_EQ((*shard_from_environment())->part, 3);
   EXPECT_EQ((*shard_from_environment())->parts, 4);
   setenv("SLURM_ARRAY_TASK_ID", "99", 1);
-  EXPECT_FALSE(shard_from_environment().ok());
+  const auto outside = shard_from_environment();
+  ASSERT_FALSE(outside.ok());
+  for (const char* named : {"SLURM_ARRAY_TASK_ID=99", "SLURM_ARRAY_TASK_COUNT=4"})
+    EXPECT_NE(outside.error().message.find(named), std::string::npos) << outside.error().message;
   for (const char* name : {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_COUNT",
                            "JOB_COMPLETION_INDEX", "JOB_COMPLETION_COUNT"})
+    unsetenv(name);
+}
+
+TEST(Shard, ArraysWithAStepCountTheirParts) {  // --array=0-6:2 has the tasks 0, 2, 4, 6
+  setenv("SLURM_ARRAY_TASK_MIN", "0", 1);
+  setenv("SLURM_ARRAY_TASK_STEP", "2", 1);
+  setenv("SLURM_ARRAY_TASK_COUNT", "4", 1);
+  for (int part = 1; part <= 4; ++part) {
+    setenv("SLURM_ARRAY_TASK_ID", std::to_string(2 * (part - 1)).c_str(), 1);
+    const auto shard = shard_from_environment();
+    ASSERT_TRUE(shard.ok()) << shard.error().message;
+    EXPECT_EQ((*shard)->part, part);
+    EXPECT_EQ((*shard)->parts, 4);
+  }
+  for (const auto& [id, step] : {std::pair("3", "2"), std::pair("8", "2"), std::pair("2", "0"),
+                                 std::pair("2", "x"), std::pair("-2", "2")}) {
+    setenv("SLURM_ARRAY_TASK_ID", id, 1);
+    setenv("SLURM_ARRAY_TASK_STEP", step, 1);
+    EXPECT_FALSE(shard_from_environment().ok()) << id << " by " << step;
+  }
+  for (const char* name : {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_STEP",
+                           "SLURM_ARRAY_TASK_COUNT"})
     unsetenv(name);
 }
 
