@@ -15,7 +15,9 @@ namespace skylapse::pipeline {
 namespace {
 
 constexpr int kLabelHeight = 18;
+constexpr int kTextHeight = 12;
 constexpr int kGap = 4;
+constexpr float kBackground = 0.12f;
 
 std::vector<ExistingFrame> evenly_chosen(const std::vector<ExistingFrame>& frames, int most) {
   if (int(frames.size()) <= most) return frames;
@@ -50,10 +52,48 @@ void paste(const image::FrameBuffer& from, image::FrameBuffer& to, int x, int y)
     std::memcpy(to.pixel(x, y + row), from.row(row), sizeof(float) * 3 * from.width());
 }
 
+/// Columns of a strip up to the last that text was drawn in.
+int drawn_width(const image::FrameBuffer& strip) {
+  for (int x = strip.width(); x > 0; --x)
+    for (int y = 0; y < strip.height(); ++y) {
+      const float* p = strip.pixel(x - 1, y);
+      if (p[0] != kBackground || p[1] != kBackground || p[2] != kBackground) return x;
+    }
+  return 0;
+}
+
+/// The longest label of a frame that fits under a picture of `width`, drawn on the background; if
+/// none fits, the shortest as far as it goes.
+Result<image::FrameBuffer> label_strip(const output::ImageIo& io, const ExistingFrame& frame,
+                                       int width) {
+  std::vector<std::string> texts{frame.label};
+  texts.insert(texts.end(), frame.shorter.begin(), frame.shorter.end());
+  for (size_t i = 0; i < texts.size(); ++i) {
+    // No glyph of the font is wider than 1.4 times its height.
+    const int roomy = std::max(width, 2 + int(1.4 * kTextHeight) * (int(texts[i].size()) + 1));
+    image::FrameBuffer strip(roomy, kLabelHeight);
+    std::fill(strip.data().begin(), strip.data().end(), kBackground);
+    const Status drawn = io.draw_text(strip, 2, kLabelHeight - 6, kTextHeight, texts[i]);
+    if (!drawn) return drawn.error();
+    if (drawn_width(strip) > width && i + 1 < texts.size()) continue;
+    image::FrameBuffer cut(width, kLabelHeight);
+    for (int y = 0; y < kLabelHeight; ++y)
+      std::memcpy(cut.row(y), strip.row(y), sizeof(float) * 3 * size_t(width));
+    return cut;
+  }
+  return image::FrameBuffer(width, kLabelHeight);  // not reached: there is one text at least
+}
+
 }  // namespace
 
 Status make_contact_sheet(const std::vector<ExistingFrame>& all, const std::filesystem::path& file,
                           const SheetSettings& settings) {
+  const bool jpeg = has_extension(file, {"jpg", "jpeg"});
+  if (!jpeg && !has_extension(file, {"png"}))
+    return Error{ErrorCode::invalid_input,
+                 fmt::format("'{}' has no extension of a contact sheet", file.string()),
+                 {},
+                 "known: .png, .jpg, .jpeg"};
   const auto io = output::open_image_io();
   if (!io) return io.error();
   const auto frames = evenly_chosen(all, settings.max_frames);
@@ -77,19 +117,19 @@ Status make_contact_sheet(const std::vector<ExistingFrame>& all, const std::file
           : std::max(1, int(std::lround(std::sqrt(double(count) * cell_height / cell_width))));
   const int rows = (count + columns - 1) / columns;
   image::FrameBuffer sheet(columns * cell_width + kGap, rows * cell_height + kGap);
-  std::fill(sheet.data().begin(), sheet.data().end(), 0.12f);
+  std::fill(sheet.data().begin(), sheet.data().end(), kBackground);
   for (int i = 0; i < count; ++i) {
     const int x = kGap + i % columns * cell_width, y = kGap + i / columns * cell_height;
     paste(*thumbnails[i], sheet, x, y);
-    const Status labelled =
-        (*io)->draw_text(sheet, x + 2, y + cell_height - kGap - 6, 12, frames[i].label);
-    if (!labelled) return labelled;
+    const auto label = label_strip(**io, frames[i], settings.thumbnail_width);
+    if (!label) return label.error();
+    paste(*label, sheet, x, y + cell_height - kGap - kLabelHeight);
   }
   std::vector<uint8_t> rgb(sheet.data().size());
   std::transform(sheet.data().begin(), sheet.data().end(), rgb.begin(),
                  [](float v) { return uint8_t(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f); });
   output::EncodeRequest request;
-  request.format = file.extension() == ".jpg" || file.extension() == ".jpeg" ? "jpg" : "png";
+  request.format = jpeg ? "jpg" : "png";
   request.width = sheet.width(), request.height = sheet.height();
   request.type = output::SampleType::u8;
   request.pixels = rgb.data();

@@ -15,7 +15,9 @@ struct SheetSettings {
   int max_frames = 120;  // evenly chosen if there are more
 };
 
-/// Writes a PNG or JPEG sheet of labelled thumbnails, whole. Scene-linear files (.exr, .hdr) are
+/// Writes a PNG or JPEG sheet of labelled thumbnails, whole. A label that is wider than its picture
+/// is shortened, and at last cut, so that it never reaches the next. Other extensions than .png,
+/// .jpg and .jpeg are invalid_input. Scene-linear files (.exr, .hdr) are
 /// shown as they are stored, clipped to 0..1 and sRGB-encoded.
 Status make_contact_sheet(const std::vector<ExistingFrame>& frames,
                           const std::filesystem::path& file, const SheetSettings& settings);
