@@ -11,4 +11,15 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
   return command;
 }
 
+CLI::Option* add_output_option(CLI::App& command, std::string& output,
+                               const std::string& description) {
+  return command.add_option("-o,--output", output, description)
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            return name.empty() ? std::string("the name is empty; . is the working folder")
+                                : std::string();
+          },
+          ""));
+}
+
 }  // namespace skylapse::cli

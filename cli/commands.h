@@ -24,6 +24,10 @@ void add_sheet_command(CLI::App& app, Session& session);
 void add_movie_command(CLI::App& app, Session& session);
 void add_doctor_command(CLI::App& app, Session& session);
 
+/// Adds --output, which must not be empty: "" would mean the working folder.
+CLI::Option* add_output_option(CLI::App& command, std::string& output,
+                               const std::string& description);
+
 /// A sub-command with --quiet and --json, an example at the end of its help, and its action.
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
                       const std::string& description, const std::string& example);

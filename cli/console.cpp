@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 
 namespace skylapse::cli {
@@ -52,10 +53,23 @@ void note(const ConsoleOptions& console, const std::string& text) {
   if (!console.quiet) std::fprintf(stderr, "%s\n", text.c_str());
 }
 
-void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+namespace {
+
+int g_stdout_error = 0;  // errno of the first write to stdout that failed
+
+}  // namespace
+
+void print(const std::string& text) {
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() && g_stdout_error == 0)
+    g_stdout_error = errno;
+}
 
 ExitCode finish_stdout(ExitCode code) {
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  errno = 0;
+  if (std::fflush(stdout) != 0 && g_stdout_error == 0) g_stdout_error = errno;
+  if (g_stdout_error == 0 && std::ferror(stdout) == 0) return code;
+  if (g_stdout_error == EPIPE) return code;
   std::fprintf(stderr, "error: standard output could not be written\n");
   return code == ExitCode::done ? ExitCode::write_failed : code;
 }

@@ -23,10 +23,12 @@ ExitCode report(const Error& error);
 /// A message to stderr, unless quiet.
 void note(const ConsoleOptions& console, const std::string& text);
 
-/// Text to stdout as it is.
+/// Text to stdout as it is. What cannot be written is reported by finish_stdout.
 void print(const std::string& text);
 
-/// Flushes stdout; a full disk or closed pipe there is an error of its own.
+/// Flushes stdout. A full disk or a closed descriptor there is an error of its own (exit 6). A
+/// reader that has gone (`skylapse plan scene.yaml | head`) is none: it has what it wanted, so the
+/// command ends quietly with the code of its own work.
 ExitCode finish_stdout(ExitCode code);
 
 }  // namespace skylapse::cli

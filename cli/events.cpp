@@ -97,36 +97,39 @@ Result<Table> one_place(const EventArguments& arguments) {
   return table;
 }
 
-Error at_line(const CsvTable& input, size_t row, Error error) {
-  error.span = {input.file, input.lines[row], 1, 1, ""};
-  return error;
+/// The columns of one row of a batch.
+Result<std::vector<Cell>> batch_row(const CsvTable& input, size_t row,
+                                    const astro::Ephemeris& ephemeris) {
+  const auto wrong = [&](const char* column, const Error& error) {
+    return csv_error(input, row, column, fmt::format("{}: {}", column, error.message), error.hint);
+  };
+  const auto place = csv_place(input, row);
+  if (!place) return place.error();
+  config::Site site;
+  site.name = csv_text(input, row, "place");
+  site.position = {place->latitude, place->longitude, place->height};
+  const auto zone = astro::Zone::find(csv_text(input, row, "zone"));
+  if (!zone) return wrong("zone", zone.error());
+  const auto date = config::parse_date(csv_text(input, row, "local_date"));
+  if (!date)
+    return csv_error(input, row, "local_date", "local_date: " + date.error().message,
+                     date.error().hint);
+  const auto day = zone->civil_day(*date);
+  if (!day) return wrong("local_date", day.error());
+  return row_of(site, *zone, day_events(ephemeris, site.position, *day));
 }
 
-Result<Table> batch(const std::string& file) {
+Result<Table, Diagnostics> batch(const std::string& file) {
   const auto input = read_csv(file);
-  if (!input) return input.error();
+  if (!input) return Diagnostics{input.error()};
   const Status complete =
       require_columns(*input, {"place", "lat_deg", "lon_deg", "height_m", "zone", "local_date"});
-  if (!complete) return complete.error();
-  const auto cell = [&](size_t row, const char* column) {
-    return input->rows[row][input->column(column)];
-  };
+  if (!complete) return Diagnostics{complete.error()};
   const astro::Ephemeris ephemeris;
-  Table table{columns(), {}};
-  for (size_t i = 0; i < input->rows.size(); ++i) {
-    auto site =
-        parse_place(cell(i, "lat_deg") + "," + cell(i, "lon_deg") + "," + cell(i, "height_m"));
-    if (!site) return at_line(*input, i, site.error());
-    site->name = cell(i, "place");
-    const auto zone = parse_zone(cell(i, "zone"));
-    if (!zone) return at_line(*input, i, zone.error());
-    const auto date = parse_day("local_date", cell(i, "local_date"));
-    if (!date) return at_line(*input, i, date.error());
-    const auto day = zone->civil_day(*date);
-    if (!day) return at_line(*input, i, day.error());
-    table.rows.push_back(row_of(*site, *zone, day_events(ephemeris, site->position, *day)));
-  }
-  return table;
+  auto rows = convert_rows<std::vector<Cell>>(
+      *input, [&](size_t row) { return batch_row(*input, row, ephemeris); });
+  if (!rows) return rows.error();
+  return Table{columns(), *std::move(rows)};
 }
 
 /// For reading: one event a line, with local times.

@@ -4,6 +4,8 @@
 
 #include <numeric>
 
+#include "cli/commands.h"
+
 namespace skylapse::cli {
 
 void add_job_options(CLI::App& command, JobArguments& arguments) {
@@ -13,7 +15,7 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
   command.add_option("--frames", arguments.frames, "Only these frames: 7, 10-50, 10-50x5, 10-");
   command.add_option("--shard", arguments.shard,
                      "Only part K of N: K/N (default: from SLURM or indexed-job variables)");
-  command.add_option("-o,--output", arguments.output, "Output folder (default: out)");
+  add_output_option(command, arguments.output, "Output folder (default: out)");
 }
 
 Result<std::vector<config::Override>, Diagnostics> parse_overrides(

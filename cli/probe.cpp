@@ -3,6 +3,8 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/csv.h"
+#include "cli/table.h"
+#include "config/quantity_parser.h"
 #include "core/frames.h"
 #include "sky/hosek_wilkie/probe.h"
 
@@ -14,11 +16,6 @@ namespace hw = sky::hosek_wilkie;
 struct ProbeArguments {
   std::string model, batch;
 };
-
-Error at_row(const CsvTable& table, size_t row, Error error) {
-  error.span = {table.file, table.lines[row], 1, 1, ""};
-  return error;
-}
 
 Result<Angle> angle_cell(const CsvTable& table, size_t row, const std::string& column) {
   const auto value = csv_number(table, row, column);
@@ -36,12 +33,19 @@ Result<Angle> gamma_of(const CsvTable& table, size_t row, const hw::ProbeQuery& 
                     enu_direction(*relative_azimuth, 90 * deg - query.view_zenith));
 }
 
+/// The model's own refusal names the value; the error points at the row.
+Error at_row(const CsvTable& table, size_t row, const Error& error) {
+  Error placed = csv_error(table, row, table.columns.front(), error.message, error.hint);
+  placed.span.length = int(table.texts[row].size());
+  return placed;
+}
+
 Result<double> radiance_of(const CsvTable& table, size_t row) {
   hw::ProbeQuery query;
-  const auto kind = hw::probe_kind_from_name(table.rows[row][table.column("kind")]);
-  if (!kind) return at_row(table, row, kind.error());
+  const auto kind = hw::probe_kind_from_name(csv_text(table, row, "kind"));
+  if (!kind) return csv_error(table, row, "kind", kind.error().message, kind.error().hint);
   query.kind = *kind;
-  query.band = table.rows[row][table.column("band")];
+  query.band = csv_text(table, row, "band");
   const auto turbidity = csv_number(table, row, "turbidity");
   if (!turbidity) return turbidity.error();
   const auto albedo = csv_number(table, row, "albedo");
@@ -62,27 +66,40 @@ Result<double> radiance_of(const CsvTable& table, size_t row) {
   return radiance;
 }
 
-ExitCode run_probe(const ProbeArguments& arguments) {
+/// Whether a column holds numbers only; `band` may be a letter, `kind` and others are text.
+bool is_number_column(const std::string& name) {
+  return name == "turbidity" || name == "albedo" || name.ends_with("_deg");
+}
+
+/// The input row with its radiance: 17 digits, so that each double is printed exactly.
+Result<std::vector<Cell>> answered_row(const CsvTable& table, size_t row) {
+  const auto radiance = radiance_of(table, row);
+  if (!radiance) return radiance.error();
+  std::vector<Cell> cells;
+  for (size_t c = 0; c < table.columns.size(); ++c) {
+    const std::string& text = table.rows[row][c];
+    cells.push_back({text, is_number_column(table.columns[c]) && config::parse_number(text).ok()});
+  }
+  cells.push_back({fmt::format("{:.17g}", *radiance), true});
+  return cells;
+}
+
+ExitCode run_probe(const ProbeArguments& arguments, const ConsoleOptions& console) {
   if (arguments.model != "hosek-wilkie")
     return report(option_error("--model", fmt::format("'{}' is unknown", arguments.model),
                                "allowed: hosek-wilkie"));
-  const auto table = read_csv(arguments.batch);
-  if (!table) return report(table.error());
+  const auto input = read_csv(arguments.batch);
+  if (!input) return report(input.error());
   const Status complete =
-      require_columns(*table, {"turbidity", "albedo", "sun_elevation_deg", "view_zenith_deg",
+      require_columns(*input, {"turbidity", "albedo", "sun_elevation_deg", "view_zenith_deg",
                                "relative_azimuth_deg", "band", "kind"});
   if (!complete) return report(complete.error());
-  std::vector<std::string> fields = table->columns;
-  fields.emplace_back("radiance");
-  std::string text = csv_line(fields);
-  for (size_t i = 0; i < table->rows.size(); ++i) {
-    const auto radiance = radiance_of(*table, i);
-    if (!radiance) return report(radiance.error());
-    fields = table->rows[i];
-    fields.push_back(fmt::format("{:.17g}", *radiance));
-    text += csv_line(fields);
-  }
-  print(text);
+  auto rows = convert_rows<std::vector<Cell>>(
+      *input, [&](size_t row) { return answered_row(*input, row); });
+  if (!rows) return report(rows.error());
+  Table table{input->columns, *std::move(rows)};
+  table.columns.emplace_back("radiance");
+  print(format_table(table, console.json ? TableFormat::json : TableFormat::csv));
   return ExitCode::done;
 }
 
@@ -98,8 +115,9 @@ void add_probe_command(CLI::App& app, Session& session) {
                    "CSV with turbidity,albedo,sun_elevation_deg,view_zenith_deg,"
                    "relative_azimuth_deg,band,kind[,gamma_deg]; - is standard input")
       ->required();
-  command->callback(
-      [&session, arguments] { session.action = [arguments] { return run_probe(*arguments); }; });
+  command->callback([&session, arguments] {
+    session.action = [&session, arguments] { return run_probe(*arguments, session.console); };
+  });
 }
 
 }  // namespace skylapse::cli

@@ -104,74 +104,57 @@ struct BatchRow {
 
 /// A finite number of an optional column, or the default.
 Result<double> optional_number(const CsvTable& table, size_t row, const std::string& column,
-                               double absent) {
+                               double absent, double lowest, double highest) {
   const int c = table.column(column);
   if (c < 0 || table.rows[row][c].empty() || table.rows[row][c] == "-") return absent;
-  return csv_number(table, row, column);
+  return csv_number(table, row, column, lowest, highest);
 }
 
-Error row_error(const CsvTable& table, size_t row, const std::string& message,
-                const std::string& allowed) {
-  return {ErrorCode::invalid_input,
-          message,
-          {table.file, table.lines[row], 1, 1, ""},
-          "allowed: " + allowed};
-}
+/// Beyond any estimate of TT - UT1 in historical times (about 17 000 s in 500 BC; Espenak and
+/// Meeus 2006).
+constexpr double kMaxTtMinusUt1 = 1e5;
 
 Result<BatchRow> read_row(const CsvTable& table, size_t row) {
   BatchRow out;
-  out.utc = table.rows[row][table.column("utc")];
+  out.utc = csv_text(table, row, "utc");
   const auto instant = astro::parse_instant(out.utc);
-  if (!instant) {
-    Error error = instant.error();
-    error.span = {table.file, table.lines[row], 1, 1, ""};
-    return error;
-  }
+  if (!instant)
+    return csv_error(table, row, "utc", "utc: " + instant.error().message, instant.error().hint);
   out.instant = *instant;
-  std::array<double, 5> v{};
-  const std::array<std::pair<const char*, double>, 5> columns{
-      {{"lat_deg", 0}, {"lon_deg", 0}, {"height_m", 0}, {"pressure_hpa", 1010}, {"temp_c", 10}}};
-  for (size_t i = 0; i < columns.size(); ++i) {
-    const auto value = i < 3 ? csv_number(table, row, columns[i].first)
-                             : optional_number(table, row, columns[i].first, columns[i].second);
-    if (!value) return value.error();
-    v[i] = *value;
-  }
-  if (std::abs(v[0]) > 90)
-    return row_error(table, row, fmt::format("lat_deg = {}", v[0]), "-90 to 90");
-  if (std::abs(v[1]) > 720)
-    return row_error(table, row, fmt::format("lon_deg = {}", v[1]), "-720 to 720");
-  if (v[3] < 0 || v[3] > 2000)
-    return row_error(table, row, fmt::format("pressure_hpa = {}", v[3]), "0 to 2000");
-  if (v[4] <= -273.15 || v[4] > 100)
-    return row_error(table, row, fmt::format("temp_c = {}", v[4]), "-273.15 to 100");
-  out.place = {v[0] * deg, v[1] * deg, v[2] * metre};
-  out.air = {true, v[3] * hPa, v[4] * degC};
-  const auto tt = optional_number(table, row, "tt_minus_ut1_s", std::nan(""));
+  const auto place = csv_place(table, row);
+  if (!place) return place.error();
+  out.place = {place->latitude, place->longitude, place->height};
+  const auto pressure = optional_number(table, row, "pressure_hpa", 1010, 0, 2000);
+  if (!pressure) return pressure.error();
+  const auto temperature = optional_number(table, row, "temp_c", 10, -273, 100);
+  if (!temperature) return temperature.error();
+  out.air = {true, *pressure * hPa, *temperature * degC};
+  const auto tt =
+      optional_number(table, row, "tt_minus_ut1_s", std::nan(""), -kMaxTtMinusUt1, kMaxTtMinusUt1);
   if (!tt) return tt.error();
   if (!std::isnan(*tt)) out.tt_minus_ut1 = *tt;
   return out;
 }
 
-Result<Table> batch(const std::string& file, astro::SunAlgorithm algorithm) {
+Result<Table, Diagnostics> batch(const std::string& file, astro::SunAlgorithm algorithm) {
   const auto input = read_csv(file);
-  if (!input) return input.error();
+  if (!input) return Diagnostics{input.error()};
   const Status complete = require_columns(*input, {"utc", "lat_deg", "lon_deg", "height_m"});
-  if (!complete) return complete.error();
+  if (!complete) return Diagnostics{complete.error()};
+  const auto rows = convert_rows<BatchRow>(*input, [&](size_t i) { return read_row(*input, i); });
+  if (!rows) return rows.error();
   Table table{kColumns, {}};
   std::optional<double> tt_in_use;
   astro::Ephemeris ephemeris({.algorithm = algorithm});
-  for (size_t i = 0; i < input->rows.size(); ++i) {
-    const auto row = read_row(*input, i);
-    if (!row) return row.error();
-    if (row->tt_minus_ut1 != tt_in_use) {
-      tt_in_use = row->tt_minus_ut1;
+  for (const BatchRow& row : *rows) {
+    if (row.tt_minus_ut1 != tt_in_use) {
+      tt_in_use = row.tt_minus_ut1;
       astro::EphemerisOptions options{.algorithm = algorithm};
       if (tt_in_use) options.tt_minus_ut1 = *tt_in_use * second;
       ephemeris = astro::Ephemeris(options);
     }
     table.rows.push_back(
-        row_of(row->utc, row->place, ephemeris.sky_state(row->instant, row->place, row->air)));
+        row_of(row.utc, row.place, ephemeris.sky_state(row.instant, row.place, row.air)));
   }
   return table;
 }

@@ -61,7 +61,8 @@ std::string as_json(const Table& table) {
     }
     rows.push_back(std::move(object));
   }
-  return rows.dump(2) + "\n";
+  // Names in another encoding than UTF-8 lose those bytes; JSON cannot carry them.
+  return rows.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
