@@ -31,6 +31,17 @@ Status plan_metered(Plan& plan) {
   return Done{};
 }
 
+/// The clear sky that the sun curve exposes for: a function of the sun alone, continued below the
+/// horizon as the picture is, so that the picture's brightness follows smoothly.
+Luminance clear_sky_of(const config::JobConfig& job, const Frame& frame) {
+  const Luminance sky = sky::mean_clear_sky_luminance(frame.sun.elevation);
+  if (!frame.sun.extrapolated) return sky;
+  const Illuminance at_horizon = std::numbers::pi * sky.in(cd_per_m2)*lux;
+  return sky * sky::twilight_level(elevation(frame.sky.sun_true),
+                                   true_elevation_of_apparent_horizon(job.air.refraction),
+                                   at_horizon);
+}
+
 }  // namespace
 
 Result<Luminance> model_sky_luminance(const config::JobConfig& job, const Frame& frame) {
@@ -47,7 +58,7 @@ Status plan_exposure(Plan& plan) {
   for (Frame& frame : plan.frames) {
     frame.ev = settings.ev;
     if (settings.mode == color::ExposureMode::sun_curve)
-      frame.ev = color::sun_curve_ev(sky::mean_clear_sky_luminance(elevation(frame.sky.sun_true)));
+      frame.ev = color::sun_curve_ev(clear_sky_of(plan.job, frame));
     frame.ev -= settings.compensation;
   }
   return Done{};

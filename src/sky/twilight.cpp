@@ -37,13 +37,13 @@ double published_log10(double elevation_deg) {
 }
 
 /// Monotone cubic interpolation through points (Fritsch and Butland 1984): the slope at a node is
-/// the weighted harmonic mean of its neighbours'. Zero at the first node, so that the curve runs
-/// smoothly into the constant that it is outside its nodes.
+/// the weighted harmonic mean of its neighbours'. `flat_start` makes it zero at the first node, so
+/// that the curve runs smoothly into the constant that it is outside its nodes.
 class MonotoneCurve {
  public:
   void add(double x, double y) { nodes_.push_back({x, y, 0}); }
 
-  void fit() {
+  void fit(bool flat_start = false) {
     const auto secant = [&](size_t i) {
       return (nodes_[i + 1].y - nodes_[i].y) / (nodes_[i + 1].x - nodes_[i].x);
     };
@@ -54,6 +54,7 @@ class MonotoneCurve {
       if (secant(i - 1) * secant(i) > 0)  // at an extremum the slope stays 0
         nodes_[i].slope = 1 / (weight / secant(i - 1) + (1 - weight) / secant(i));
     }
+    nodes_.front().slope = flat_start ? 0 : secant(0);
     nodes_.back().slope = secant(nodes_.size() - 2);
   }
 
@@ -84,7 +85,7 @@ MonotoneCurve make_illuminance_curve() {
   add(-0.8);
   for (double h = -0.5; h < 10; h += 0.5) add(h);
   for (double h = 10; h <= 90; h += 2.5) add(h);
-  curve.fit();
+  curve.fit(true);
   return curve;
 }
 
@@ -96,25 +97,24 @@ double log10_illuminance(double elevation_deg) {
 /// Depression at which the continued sky has reached the published illuminance.
 constexpr Angle kBlendDepression = 6 * deg;
 
-/// log10 of published illuminance over that of the sky alone, by sun elevation. Above the horizon
-/// the spectral Hosek-Wilkie sky at turbidity 2.5 and albedo 0.2 (tested to 1 %), below it 1.
-MonotoneCurve make_sky_share_curve() {
-  constexpr std::array<std::array<double, 2>, 14> kRatios{{{-6, 1.0},
-                                                           {0, 0.3224},
-                                                           {1, 0.3867},
-                                                           {2, 0.4601},
-                                                           {5, 0.7163},
-                                                           {10, 1.2653},
-                                                           {15, 1.8214},
-                                                           {20, 2.2936},
-                                                           {30, 3.3319},
-                                                           {40, 4.4624},
-                                                           {50, 5.5005},
-                                                           {60, 6.2846},
-                                                           {75, 6.8969},
-                                                           {90, 7.2115}}};
+/// log10 of the illuminance by the sky alone, in lux, by the sun's elevation: the spectral
+/// Hosek-Wilkie sky at turbidity 2.5 and albedo 0.2 (tested to 1 %).
+MonotoneCurve make_sky_curve() {
+  constexpr std::array<std::array<double, 2>, 13> kLux{{{0, 2354},
+                                                        {1, 3279},
+                                                        {2, 4175},
+                                                        {5, 6309},
+                                                        {10, 8789},
+                                                        {15, 10557},
+                                                        {20, 11923},
+                                                        {30, 13895},
+                                                        {40, 15135},
+                                                        {50, 15887},
+                                                        {60, 16408},
+                                                        {75, 17139},
+                                                        {90, 17864}}};
   MonotoneCurve curve;
-  for (const auto& [elevation_deg, ratio] : kRatios) curve.add(elevation_deg, std::log10(ratio));
+  for (const auto& [elevation_deg, sky_lux] : kLux) curve.add(elevation_deg, std::log10(sky_lux));
   curve.fit();
   return curve;
 }
@@ -125,10 +125,9 @@ Illuminance clear_sky_illuminance(Angle true_sun_elevation) {
   return std::pow(10.0, log10_illuminance(true_sun_elevation.in(deg))) * lux;
 }
 
-Luminance mean_clear_sky_luminance(Angle true_sun_elevation) {
-  static const MonotoneCurve share = make_sky_share_curve();
-  const double h = true_sun_elevation.in(deg);
-  return std::pow(10.0, log10_illuminance(h) - share.at(h)) / std::numbers::pi * cd_per_m2;
+Luminance mean_clear_sky_luminance(Angle sun_elevation) {
+  static const MonotoneCurve curve = make_sky_curve();
+  return std::pow(10.0, curve.at(sun_elevation.in(deg))) / std::numbers::pi * cd_per_m2;
 }
 
 double twilight_level(Angle true_elevation, Angle horizon_true_elevation,

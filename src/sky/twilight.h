@@ -16,9 +16,9 @@ namespace skylapse::sky {
 Illuminance clear_sky_illuminance(Angle true_sun_elevation);
 
 /// Mean luminance of a clear sky, as a camera's meter that looks at the sky would see it: the
-/// illuminance by the sky alone, divided by pi. Above the horizon that of the Hosek-Wilkie sky
-/// (turbidity 2.5, albedo 0.2); from -6 deg down the published illuminance; smooth between.
-Luminance mean_clear_sky_luminance(Angle true_sun_elevation);
+/// illuminance by the sky alone over pi, of the Hosek-Wilkie sky at turbidity 2.5 and albedo 0.2.
+/// Domain 0..90 deg, constant outside; below the horizon twilight_level continues it.
+Luminance mean_clear_sky_luminance(Angle sun_elevation);
 
 /// Factor on the sky of sun elevation 0 when the sun's true elevation h is below h0, at which the
 /// sky model sees the sun on the horizon; 1 from h0 up. The sky keeps its shape and loses light as

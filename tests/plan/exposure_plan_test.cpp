@@ -29,6 +29,26 @@ TEST(ExposurePlan, SunCurveNeverJumps) {
     EXPECT_LT(std::abs(plan.frames[i].ev - plan.frames[i - 1].ev), 1.25 * 1.8);
 }
 
+TEST(ExposurePlan, SunCurveKeepsThePicturesBrightnessSmoothThroughSunrise) {
+  // The clear sky the curve is made for: what is left of the change of light after exposure is
+  // 0.14 stops a stop of light, at most 0.25 stops a degree; a minute is 0.2 deg at most.
+  auto scene = whole_day("mode: sun-curve");
+  scene.time =
+      "time: {zone: Europe/Prague, date: 2026-06-21, from: sunrise - 90 min, "
+      "to: sunrise + 90 min, step: 1 min}";
+  scene.more += "\nair: {turbidity: 2.5, ground_albedo: 0.2}";
+  const auto plan = plan_of(scene);
+  double last = 0;
+  for (size_t i = 0; i < plan.frames.size(); ++i) {
+    const double l = plan::model_sky_luminance(plan.job, plan.frames[i])->in(cd_per_m2);
+    const double shown = std::log2(l * color::exposure_scale_per_cd_m2(plan.frames[i].ev));
+    if (i > 0) {
+      EXPECT_LT(std::abs(shown - last), 0.25 * 0.2) << format_local(plan.frames[i].local);
+    }
+    last = shown;
+  }
+}
+
 TEST(ExposurePlan, MeteredExposureKeepsItsRateLimit) {
   const auto plan = plan_of(whole_day("mode: metered, rate_limit: 0.1"));
   for (size_t i = 1; i < plan.frames.size(); ++i)
