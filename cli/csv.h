@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.h"
 #include "core/quantity.h"
 #include "core/result.h"
 
