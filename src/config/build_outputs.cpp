@@ -54,7 +54,7 @@ class OutputReader {
   OutputReader(const Section& section, std::string_view path_key, const JobConfig& job,
                const ReadContext& context)
       : section_(section), path_key_(path_key), job_(job), context_(context) {
-    path_ = section.get<std::string>(path_key).value_or("");
+    path_ = normalised_path(section.get<std::string>(path_key).value_or(""));
     tokens_ = tokens_in(path_);
   }
 
@@ -130,6 +130,11 @@ class OutputReader {
   }
 
   bool allowed_place() {
+    if (is_reserved_path(path_)) {
+      refuse_path("this name belongs to the program's own records",
+                  "manifest.json and .skylapse are kept at the top of the output folder");
+      return false;
+    }
     if (job_.allow_outside_paths || !leaves_folder(path_)) return true;
     refuse_path("this leaves the output folder",
                 "use a name inside it, or add \"allow_outside_paths: on\" at the top level");
@@ -205,13 +210,23 @@ class OutputReader {
     return dates.size() > 1 || (dates.size() == 1 && dates[0].first != dates[0].last);
   }
 
-  void check_image_names() {
-    const bool faces = std::any_of(job_.cameras.begin(), job_.cameras.end(),
-                                   [](const CameraConfig& c) { return c.cube_faces_apart; });
-    if (faces && !has_token("face"))
+  /// Every camera writes to every output, so {face} must have a meaning for all of them or none.
+  void check_faces() {
+    const auto apart = [](const CameraConfig& c) { return c.cube_faces_apart; };
+    const auto& cameras = job_.cameras;
+    const bool some = std::any_of(cameras.begin(), cameras.end(), apart);
+    const auto whole = std::find_if_not(cameras.begin(), cameras.end(), apart);
+    if (some && !has_token("face"))
       refuse_path("six faces would be written to one file", "add the token {face} to the name");
-    if (!faces && has_token("face"))
+    else if (!some && has_token("face"))
       refuse_path("no camera has faces of its own", "{face} belongs to \"layout: faces\"");
+    else if (some && whole != cameras.end())
+      refuse_path(fmt::format("{{face}} has no meaning for the camera {}", whole->name),
+                  "give cameras with \"layout: faces\" a job of their own");
+  }
+
+  void check_image_names() {
+    check_faces();
     if (has_token("#")) return;
     if (day_has_several_times() && !has_token("time"))
       refuse_path("all frames of a day would be written to one file",
@@ -263,7 +278,7 @@ std::vector<Output> build_outputs(const Section& root, const JobConfig& job,
     }
     if (const auto path = section->get<std::string>(path_key)) {
       const int line = context.sources.span(section->place_of(path_key)).line;
-      const auto [first, is_new] = lines.emplace(*path, line);
+      const auto [first, is_new] = lines.emplace(normalised_path(*path), line);
       if (!is_new)
         context.errors.add(section->place_of(path_key), "two outputs have this name",
                            fmt::format("the first is on line {}", first->second));

@@ -55,6 +55,37 @@ std::string_view sampling_key(const Sampling& sampling) {
   }
 }
 
+/// More days than this are not searched for events of the sky in one job: a century of them. At
+/// about a millisecond each this takes less than a minute.
+constexpr double kMaxSearchedDays = 40'000;
+
+/// Days of one site and day of the job that are searched for the sun and moon.
+double searched_days(const TimePlan& time) {
+  if (std::holds_alternative<ElevationStep>(time.sampling))
+    return std::max(1.0, std::ceil(longest_span_s(time) / 86400));
+  const auto anchored = [](const std::optional<TimeExpression>& t) { return t && t->anchor; };
+  if (anchored(time.from) || anchored(time.to)) return 1;
+  const auto* list = std::get_if<ExplicitTimes>(&time.sampling);
+  if (list == nullptr) return 0;
+  // Times with days of their own may each need another day.
+  return double(std::count_if(list->times.begin(), list->times.end(),
+                              [](const TimeExpression& t) { return t.anchor && t.date; })) +
+         double(std::any_of(list->times.begin(), list->times.end(),
+                            [](const TimeExpression& t) { return t.anchor && !t.date; }));
+}
+
+/// Events of the sky cost time however few frames they give.
+void check_searched_days(const Section& time, const JobConfig& job, double days,
+                         const ReadContext& context) {
+  const double searched = searched_days(job.time) * days * double(job.sites.size());
+  if (searched <= kMaxSearchedDays) return;
+  context.errors.add(
+      time.place_of(sampling_key(job.time.sampling)),
+      fmt::format("the events of up to {:.6g} days would have to be found", searched),
+      fmt::format("allowed: at most {} days and locations together; use fewer, or clock times",
+                  kMaxSearchedDays));
+}
+
 }  // namespace
 
 void check_frame_count(const Section& root, const JobConfig& job, const ReadContext& context) {
@@ -66,7 +97,10 @@ void check_frame_count(const Section& root, const JobConfig& job, const ReadCont
   const double lists = double(job.sites.size()) * double(job.air.turbidity.size()) *
                        double(job.air.ground_albedo.size()) * double(job.cameras.size());
   const double frames = per_day * days * lists;
-  if (frames <= double(kMaxJobFrames)) return;
+  if (frames <= double(kMaxJobFrames)) {
+    check_searched_days(*time, job, days, context);
+    return;
+  }
   context.errors.add(
       time->place_of(sampling_key(job.time.sampling)),
       fmt::format("this job asks for up to {:.3g} frames", frames),

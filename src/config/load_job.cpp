@@ -74,11 +74,13 @@ Result<JobConfig, Diagnostics> load_job(const std::string& path,
     return unreadable(path, "there is no such file", "check the name and the current folder");
   if (fs::is_directory(path, status))
     return unreadable(path, "this is a folder", "name the config file itself");
+  if (!fs::is_regular_file(path, status))  // reading a pipe would wait for its other end
+    return unreadable(path, "this is not a regular file", "save the config in a file and name it");
   std::ifstream file(path, std::ios::binary);
   if (!file)
     return unreadable(path, fmt::format("cannot be opened ({})", std::strerror(errno)),
                       "check its permissions");
-  // One byte more than allowed is enough to know that it is too long, also of an endless device.
+  // One byte more than allowed is enough to know that it is too long.
   std::string text(YamlLimits{}.bytes + 1, '\0');
   file.read(text.data(), std::streamsize(text.size()));
   if (file.bad()) return unreadable(path, "cannot be read", "check the disk it lies on");

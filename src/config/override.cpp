@@ -40,13 +40,29 @@ std::optional<Node> read_value(const Override& change, int source, SourceSet& so
   return node;
 }
 
-std::optional<std::string> key_path_problem(const std::string& path,
-                                            const std::vector<Segment>& segments) {
-  if (int(segments.size()) > YamlLimits{}.depth) return "this key has too many parts";
+constexpr const char* kKeyExamples = "such as air.turbidity=3 or outputs.0.type=half";
+
+/// The key path without its empty parts, as a hint.
+std::string without_empty_parts(const std::vector<Segment>& segments) {
+  std::string path;
   for (const Segment& segment : segments)
-    if (segment.name.empty()) return "a part of the key is empty";
-  if (const auto bad = first_bad_byte(path)) return bad->what;
-  if (path.find('\n') != std::string::npos) return "the key holds a line end";
+    if (!segment.name.empty()) path += (path.empty() ? "" : ".") + segment.name;
+  return path.empty() ? kKeyExamples : fmt::format("did you mean {}=...?", path.substr(0, 60));
+}
+
+/// Marks the part of `path` that is wrong.
+std::optional<Problem> key_path_problem(const std::string& path,
+                                        const std::vector<Segment>& segments) {
+  if (int(segments.size()) > YamlLimits{}.depth)
+    return Problem{"this key has too many parts", kKeyExamples, 0, 1};
+  if (const auto bad = first_bad_byte(path)) return Problem{bad->what, kKeyExamples, 0, 1};
+  if (path.find('\n') != std::string::npos)
+    return Problem{"the key holds a line end", kKeyExamples, 0, 1};
+  for (const Segment& segment : segments)
+    if (segment.name.empty())
+      return Problem{path.empty() ? "there is no key before the ="
+                                  : fmt::format("a key is missing in \"{}\"", path.substr(0, 60)),
+                     without_empty_parts(segments), size_t(segment.place.column) - 1, 1};
   return std::nullopt;
 }
 
@@ -99,7 +115,8 @@ void apply_override(Node& root, const Override& change, SourceSet& sources, Erro
   const int source = sources.add("--set " + change.key_path.substr(0, 100), change.key_path + "=");
   const std::vector<Segment> segments = split(change.key_path, source);
   if (const auto problem = key_path_problem(change.key_path, segments)) {
-    errors.add({source, 1, 1, 1}, *problem, "such as air.turbidity=3 or outputs.0.type=half");
+    errors.add({source, 1, int(problem->begin) + 1, int(problem->length)}, problem->message,
+               problem->hint);
     return;
   }
   auto value = read_value(change, source, sources, errors);

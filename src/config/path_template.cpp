@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 namespace skylapse::config {
 namespace {
@@ -95,6 +96,15 @@ bool leaves_folder(std::string_view path) {
     path.remove_prefix(std::min(slash + 1, path.size()));
   }
   return false;
+}
+
+std::string normalised_path(const std::string& path) {
+  return std::filesystem::path(path).lexically_normal().generic_string();
+}
+
+bool is_reserved_path(std::string_view path) {
+  const std::string_view first = path.substr(0, path.find('/'));
+  return first == "manifest.json" || first == ".skylapse";
 }
 
 std::string extension_of(std::string_view path) {

@@ -22,6 +22,14 @@ std::optional<Problem> path_template_problem(std::string_view path);
 /// The path may lead out of the folder it is relative to: it is absolute, or ".." climbs above it.
 bool leaves_folder(std::string_view path);
 
+/// One spelling for each path: without "." and repeated "/", and ".." only in front. Judged by the
+/// letters alone; what is a link on disk does not count.
+std::string normalised_path(const std::string& path);
+
+/// Whether a normalised path, relative to the output folder, is one of the program's own records
+/// there or lies below one: manifest.json and .skylapse.
+bool is_reserved_path(std::string_view path);
+
 /// The ending in small letters, without the point; empty if there is none.
 std::string extension_of(std::string_view path);
 

@@ -42,14 +42,16 @@ double bound(const KeySpec& key, std::string_view text) {
   return *value;
 }
 
-/// The number of `text` with another unit of the dimension that brings it into range.
+/// The number of `text` with another unit of the dimension that brings it into range. Not for
+/// durations and angles: a number fits some unit of them whatever was meant.
 std::string other_unit(std::string_view text, const KeySpec& key, double low, double high) {
   const std::string plain = plain_text(text);
   const size_t end = plain.find_last_of("0123456789.");
   if (end == std::string::npos) return {};
   const std::string number = plain.substr(0, end + 1);
   if (!parse_number(number).ok() || key.dimension == Dimension::latitude ||
-      key.dimension == Dimension::longitude || key.dimension == Dimension::angle)
+      key.dimension == Dimension::longitude || key.dimension == Dimension::angle ||
+      key.dimension == Dimension::duration)
     return {};
   for (const UnitName& unit : info_of(key.dimension).units) {
     const std::string candidate = fmt::format("{} {}", number, unit.symbol);

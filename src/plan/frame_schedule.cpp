@@ -19,7 +19,8 @@ Error error_at(const SourceSpan& span, std::string message, std::string hint = {
   return {ErrorCode::invalid_input, std::move(message), span, std::move(hint)};
 }
 
-/// Events of the days of one site, found once each.
+/// Events of the days of one site; the searches of the last few days are kept, as the times of a
+/// day ask for one after another.
 class SiteDays {
  public:
   SiteDays(const config::Site& site, astro::Zone zone) : site_(site), zone_(std::move(zone)) {}
@@ -27,26 +28,32 @@ class SiteDays {
   [[nodiscard]] const config::Site& site() const { return site_; }
   [[nodiscard]] const astro::Ephemeris& ephemeris() const { return ephemeris_; }
 
-  Result<const astro::DayEvents*> events(const year_month_day& date) {
-    const auto known = days_.find(std::chrono::sys_days(date));
-    if (known != days_.end()) return &known->second;
-    auto day = zone_.civil_day(date);
-    if (!day) return day.error();
-    auto events = astro::day_events(ephemeris_, site_.position, *day);
-    return &days_.emplace(std::chrono::sys_days(date), std::move(events)).first->second;
+  Result<astro::EventTimes> events(const year_month_day& date, astro::EventKind kind) {
+    auto known = searches_.find(std::chrono::sys_days(date));
+    if (known == searches_.end()) {
+      const auto day = zone_.civil_day(date);
+      if (!day) return day.error();
+      if (searches_.size() >= kDaysKept) searches_.clear();
+      known = searches_
+                  .emplace(std::chrono::sys_days(date),
+                           astro::DayEventSearch(ephemeris_, site_.position, *day))
+                  .first;
+    }
+    return known->second.times_of(kind);
   }
 
  private:
+  static constexpr size_t kDaysKept = 8;  // several kB each
   const config::Site& site_;
   astro::Zone zone_;
   astro::Ephemeris ephemeris_;
-  std::map<std::chrono::sys_days, astro::DayEvents> days_;
+  std::map<std::chrono::sys_days, astro::DayEventSearch> searches_;
 };
 
-std::string why_absent(const astro::DayEvents& day, astro::EventKind kind,
+std::string why_absent(astro::AbsentEvent absent, astro::EventKind kind, const year_month_day& date,
                        const std::string& site) {
-  const std::string where = fmt::format("at {} on {}", site, config::date_text(day.day.date));
-  switch (day.of(kind).absent) {
+  const std::string where = fmt::format("at {} on {}", site, config::date_text(date));
+  switch (absent) {
     case astro::AbsentEvent::above:
       return fmt::format("there is no {} {}: it stays above that level all day", name_of(kind),
                          where);
@@ -59,10 +66,21 @@ std::string why_absent(const astro::DayEvents& day, astro::EventKind kind,
   return fmt::format("there is no {} {}", name_of(kind), where);
 }
 
+/// 00:00 and 24:00 are the limits of the zone's day, also where no clock shows them or one shows
+/// them twice; any other clock time must exist once.
+Result<Instant> resolve_in_zone(const config::TimeExpression& time, const year_month_day& date,
+                                const astro::WallTime& wall, const astro::Zone& zone) {
+  const auto day = zone.civil_day(date);
+  if (!day) return day.error();
+  if (*time.clock == std::chrono::hours(0)) return day->start;
+  if (*time.clock == std::chrono::hours(24) && !time.leap_second) return day->end;
+  return zone.to_instant(wall);
+}
+
 Result<Instant> resolve_clock(const config::TimeExpression& time, const year_month_day& date,
                               const astro::Zone& zone) {
   const astro::WallTime wall{std::chrono::local_days(date).time_since_epoch() + *time.clock};
-  if (!time.utc_offset) return zone.to_instant(wall);
+  if (!time.utc_offset) return resolve_in_zone(time, date, wall, zone);
   Instant instant{
       std::chrono::sys_time<std::chrono::microseconds>(wall.time_since_epoch() - *time.utc_offset)};
   if (time.leap_second)  // 23:59:60 is written as the last second plus one: mark it as itself
@@ -75,15 +93,14 @@ Result<Instant> resolve(const config::TimeExpression& time, const year_month_day
   const year_month_day date = time.date.value_or(day);
   Result<Instant> base = [&]() -> Result<Instant> {
     if (time.clock) return resolve_clock(time, date, days.zone());
-    auto events = days.events(date);
-    if (!events) return events.error();
-    const auto& found = (*events)->of(*time.anchor).times;
-    if (found.empty())
+    const auto found = days.events(date, *time.anchor);
+    if (!found) return found.error();
+    if (found->times.empty())
       return Error{ErrorCode::invalid_input,
-                   why_absent(**events, *time.anchor, days.site().name),
+                   why_absent(found->absent, *time.anchor, date, days.site().name),
                    {},
                    "use a clock time such as 00:00, or another day"};
-    return found.front();
+    return found->times.front();
   }();
   if (!base) {
     Error error = base.error();
@@ -117,12 +134,13 @@ std::vector<Instant> by_count(const Interval& span, long count) {
 }
 
 std::vector<Instant> by_elevation(const Interval& span, Angle step, const SiteDays& days) {
-  std::vector<Instant> times;
+  std::vector<Angle> levels;
   const int highest = int(std::floor(90.0 / step.in(deg)));
-  for (int k = -highest; k <= highest; ++k)
-    for (const auto& crossing : astro::sun_level_crossings(days.ephemeris(), days.site().position,
-                                                           span.from, span.to, double(k) * step))
-      times.push_back(crossing.instant);
+  for (int k = -highest; k <= highest; ++k) levels.push_back(double(k) * step);
+  std::vector<Instant> times;
+  for (const auto& crossing : astro::sun_level_crossings(days.ephemeris(), days.site().position,
+                                                         span.from, span.to, levels))
+    times.push_back(crossing.instant);
   std::sort(times.begin(), times.end());
   return times;
 }
@@ -161,17 +179,22 @@ Result<std::vector<Instant>> times_of_day(const config::TimePlan& plan, const ye
   return by_elevation(*span, std::get<config::ElevationStep>(plan.sampling).step, days);
 }
 
+struct JobDay {
+  year_month_day date;
+  const config::DateRange* range = nullptr;  // null: the expressions carry their own days
+};
+
 /// The days of a job; without dates of their own, expressions carry one, and any day will do.
-std::vector<std::pair<year_month_day, bool>> days_of(const config::TimePlan& plan) {
-  std::vector<std::pair<year_month_day, bool>> days;  // with "may be passed over"
+std::vector<JobDay> days_of(const config::TimePlan& plan) {
+  std::vector<JobDay> days;
   for (const auto& range : plan.dates)
     for (auto day = std::chrono::sys_days(range.first); day <= std::chrono::sys_days(range.last);
          day += std::chrono::days(range.step_days))
-      days.emplace_back(day, range.first != range.last);
+      days.push_back({day, &range});
   if (days.empty()) {
     const auto* list = std::get_if<config::ExplicitTimes>(&plan.sampling);
     const auto& first = plan.from ? *plan.from : list->times.front();
-    days.emplace_back(first.date.value_or(year_month_day{}), false);
+    days.push_back({first.date.value_or(year_month_day{}), nullptr});
   }
   return days;
 }
@@ -202,12 +225,20 @@ Result<Schedule, Diagnostics> make_schedule(const config::JobConfig& job) {
     auto zone = zone_of(job, job.sites[s]);
     if (!zone) return Diagnostics{zone.error()};
     SiteDays site_days(job.sites[s], *zone);
-    for (const auto& [date, may_be_skipped] : days) {
-      if (may_be_skipped && !zone->civil_day(date)) {
-        schedule.notes.push_back(fmt::format("{} {}: this day does not exist in {}; passed over",
-                                             job.sites[s].name, config::date_text(date),
-                                             zone->name()));
-        continue;
+    for (const auto& [date, range] : days) {
+      if (range != nullptr) {
+        auto day = zone->civil_day(date);
+        if (!day && range->first == range->last) {
+          errors.push_back(day.error());
+          errors.back().span = range->span;
+          break;
+        }
+        if (!day) {
+          schedule.notes.push_back(fmt::format("{} {}: this day does not exist in {}; passed over",
+                                               job.sites[s].name, config::date_text(date),
+                                               zone->name()));
+          continue;
+        }
       }
       auto times = times_of_day(job.time, date, site_days);
       if (!times) {
@@ -227,7 +258,11 @@ Result<Schedule, Diagnostics> make_schedule(const config::JobConfig& job) {
                      return a.site != b.site ? a.site < b.site : a.instant < b.instant;
                    });
   if (schedule.times.empty())
-    return Diagnostics{error_at(job.time.span, "no frame falls into this time span")};
+    return Diagnostics{error_at(
+        job.time.span, "no frame falls into this time span",
+        std::holds_alternative<config::ElevationStep>(job.time.sampling)
+            ? "the sun passes no multiple of `every` in it: choose a smaller angle or a longer span"
+            : "choose days that exist in the time zone")};
   return schedule;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "config/path_template.h"
 #include "config/time_expression.h"
 #include "plan/exposure_plan.h"
 #include "plan/path_template.h"
@@ -51,20 +52,30 @@ void number_paths(Plan& plan, size_t output) {
   }
 }
 
-/// Two frames must not write one file; a movie is one file for many frames by intent.
+/// Two frames must not write one file, nor one of the program's own; a movie is one file for many
+/// frames by intent.
 std::optional<Error> find_collision(const Plan& plan) {
   std::unordered_map<std::string, std::pair<long, size_t>> writers;
   for (const Frame& frame : plan.frames)
     for (size_t o = 0; o < plan.job.outputs.size(); ++o) {
       const bool movie = std::holds_alternative<config::MovieOutput>(plan.job.outputs[o]);
-      const auto [known, fresh] = writers.try_emplace(frame.paths[o], frame.index, o);
-      if (fresh || (movie && known->second.second == o)) continue;
-      return Error{
-          ErrorCode::invalid_input,
-          fmt::format("frames {} and {} would both write '{}'", known->second.first, frame.index,
-                      frame.paths[o]),
-          template_of(plan.job.outputs[o]).span,
-          "add ####, {site}, {date}, {time}, {camera}, {turbidity} or {albedo} to the name"};
+      const SourceSpan& span = template_of(plan.job.outputs[o]).span;
+      for (const std::string& file : files_of(plan, frame, o)) {
+        if (config::is_reserved_path(file))
+          return Error{ErrorCode::invalid_input,
+                       fmt::format("frame {} would write '{}', which belongs to the program's own "
+                                   "records",
+                                   frame.index, file),
+                       span, "rename the location or camera, or put it into a folder"};
+        const auto [known, fresh] = writers.try_emplace(file, frame.index, o);
+        if (fresh || (movie && known->second.second == o)) continue;
+        return Error{
+            ErrorCode::invalid_input,
+            fmt::format("frames {} and {} would both write '{}'", known->second.first, frame.index,
+                        file),
+            span,
+            "add ####, {site}, {date}, {time}, {camera}, {turbidity} or {albedo} to the name"};
+      }
     }
   return {};
 }

@@ -153,6 +153,24 @@ TEST(HostileInput, AThousandMillionFramesAreRefusedByArithmetic) {
         << time;
 }
 
+TEST(HostileInput, DaysSearchedForEventsAreRefusedByArithmetic) {
+  const auto error_at = [](const std::string& time) {
+    return test::error_of(
+        with(kSmallJob, "{zone: Europe/Prague, date: 2026-06-21, step: 10 min}", time));
+  };
+  EXPECT_EQ(error_at("{zone: UTC, dates: 1900-01-01 .. 2199-12-31, at: [sunrise]}"),
+            "2 [[] the events of up to 109573 days would have to be found | allowed: at most 40000 "
+            "days and locations together; use fewer, or clock times");
+  for (const char* time :
+       {"{zone: UTC, dates: 1900-01-01 .. 2199-12-31, from: sunrise, frames: 1}",
+        "{zone: UTC, dates: 1900-01-01 .. 2019-12-31, every: 90 deg}",
+        "{zone: UTC, from: 1900-01-01 00:00, to: 2199-12-31 00:00, every: 90 deg}"})
+    EXPECT_NE(error_at(time).find("would have to be found"), std::string::npos) << time;
+  for (const char* time : {"{zone: UTC, dates: 1900-01-01 .. 2199-12-31, at: ['12:00']}",
+                           "{zone: UTC, dates: 2000-01-01 .. 2099-12-31, at: [sunrise, sunset]}"})
+    EXPECT_EQ(error_at(time), "no error");
+}
+
 TEST(HostileInput, ListsMultiplyIntoTheFrameCount) {
   std::string turbidities;
   for (int i = 0; i < 900; ++i) turbidities += (i ? ", " : "") + std::to_string(1 + i * 0.01);

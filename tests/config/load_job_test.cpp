@@ -1,10 +1,13 @@
 // What good jobs mean.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "config/air_conversion.h"
 #include "config/job_text.h"
+#include "config/temporary_folder.h"
 
 namespace skylapse::config {
 namespace {
@@ -233,10 +236,38 @@ TEST(LoadJob, FilesThatCannotBeReadAreMissingInput) {
   }
 }
 
+TEST(LoadJob, APipeIsRefusedInsteadOfWaitedFor) {
+  const test::TemporaryFolder folder;
+  const std::string pipe = folder.path() / "job.yaml", link = folder.path() / "link.yaml";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::filesystem::create_symlink(pipe, link);
+  for (const std::string& path : {pipe, link, std::string("/dev/null")}) {
+    const auto job = load_job(path);
+    ASSERT_FALSE(job.ok());
+    EXPECT_EQ(job.error()[0].code, ErrorCode::missing_input);
+    EXPECT_EQ(job.error()[0].message, path + ": this is not a regular file");
+  }
+}
+
+TEST(LoadJob, ALinkToAConfigIsRead) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "job.yaml") << kSmallJob;
+  std::filesystem::create_symlink("job.yaml", folder.path() / "link.yaml");
+  EXPECT_TRUE(load_job(folder.path() / "link.yaml").ok());
+}
+
+TEST(LoadJob, OutputNamesHaveOneSpelling) {
+  for (const char* name :
+       {"a/b.####.png", "./a/b.####.png", "a//b.####.png", "a/./c/../b.####.png"})
+    EXPECT_EQ(std::get<ImageOutput>(job_of(with(kSmallJob, "sky.####.png", name)).outputs.at(0))
+                  .path.value,
+              "a/b.####.png");
+}
+
 TEST(LoadJob, TheColourConfigIsSoughtBesideTheJob) {
-  const std::string folder = ::testing::TempDir();
-  const std::string name = folder + "/skylapse_job_with_ocio.yaml";
-  std::ofstream(folder + "/studio.ocio") << "x";
+  const test::TemporaryFolder folder;
+  const std::string name = folder.path() / "job.yaml";
+  std::ofstream(folder.path() / "studio.ocio") << "x";
   std::ofstream(name) << kSmallJob + "color: {space: acescg, ocio: studio.ocio}\n";
   const auto job = load_job(name);
   ASSERT_TRUE(job.ok()) << format_error(job.error()[0]);

@@ -53,8 +53,12 @@ TEST(Override, ObeysTheRulesOfTheFile) {
   EXPECT_EQ(error_of(kSmallJob, {{"camera.fov", ""}}),
             "--set camera.fov:1 [fov] camera.fov has no value | such as 75 deg");
   EXPECT_EQ(error_of(kSmallJob, {{"camera..fov", "3 deg"}}),
-            "--set camera..fov:1 [c] a part of the key is empty | such as air.turbidity=3 or "
-            "outputs.0.type=half");
+            "--set camera..fov:1 [.] a key is missing in \"camera..fov\" | did you mean "
+            "camera.fov=...?");
+  EXPECT_EQ(error_of(kSmallJob, {{".title", "x"}}),
+            "--set .title:1 [.] a key is missing in \".title\" | did you mean title=...?");
+  EXPECT_EQ(error_of(kSmallJob, {{"title.", "x"}}),
+            "--set title.:1 [=] a key is missing in \"title.\" | did you mean title=...?");
   EXPECT_EQ(
       error_of(kSmallJob, {{"camera", "[1, 2"}}),
       "--set camera:1 [[] a list or section stands where a key belongs | close every [ and {, "

@@ -41,6 +41,20 @@ TEST(PathTemplate, LeavingTheOutputFolderIsSeenThroughDetours) {
     EXPECT_FALSE(leaves_folder(path)) << path;
 }
 
+TEST(PathTemplate, PathsOfOneFileHaveOneNormalSpelling) {
+  for (const char* path : {"a/b.png", "./a/b.png", "a//b.png", "a/./b.png", "a/c/../b.png"})
+    EXPECT_EQ(normalised_path(path), "a/b.png") << path;
+  EXPECT_EQ(normalised_path("../a//b.png"), "../a/b.png");
+  EXPECT_EQ(normalised_path("{site}/####.png"), "{site}/####.png");
+}
+
+TEST(PathTemplate, RecordsOfTheProgramLieAtTheTopAlone) {
+  for (const char* path : {"manifest.json", ".skylapse", ".skylapse/x.png", "manifest.json/x.png"})
+    EXPECT_TRUE(is_reserved_path(path)) << path;
+  for (const char* path : {"a/manifest.json", "a/.skylapse/x.png", "manifest.json.png"})
+    EXPECT_FALSE(is_reserved_path(path)) << path;
+}
+
 TEST(PathTemplate, TokensAndEndingsAreFound) {
   EXPECT_EQ(tokens_in("{site}/a.####.{time}.png"), (std::vector<std::string>{"site", "#", "time"}));
   EXPECT_TRUE(tokens_in("plain.png").empty());

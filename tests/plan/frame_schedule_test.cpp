@@ -92,6 +92,79 @@ TEST(Schedule, ADayThatTheZoneSkipsIsAnErrorByItself) {
   EXPECT_EQ(plan_errors(scene).size(), 1u);
 }
 
+Scene apia(const std::string& time) {
+  Scene scene = with_time("zone: Pacific/Apia, " + time);
+  scene.location = "location: {name: Apia, latitude: -13.8333, longitude: -171.767}";
+  return scene;
+}
+
+TEST(Schedule, TheDayBeforeASkippedDayEndsWhereTheDayAfterItBegins) {
+  // Samoa went from 2011-12-29 24:00-10:00 to 2011-12-31 00:00+14:00, both 10:00 UTC of the 30th.
+  const auto times = utc_times(plan_of(apia("dates: 2011-12-29 .. 2011-12-31, step: 6 h")));
+  ASSERT_EQ(times.size(), 10u);
+  EXPECT_EQ(times.front(), "2011-12-29T10:00:00Z");
+  EXPECT_EQ(times[4], "2011-12-30T10:00:00Z");
+  EXPECT_EQ(times[5], "2011-12-30T10:00:00Z");
+  EXPECT_EQ(times.back(), "2011-12-31T10:00:00Z");
+}
+
+TEST(Schedule, ASkippedDayByItselfSaysSoAtItsDate) {
+  for (const char* time : {"date: 2011-12-30, step: 6 h", "date: 2011-12-30, at: [12:00]",
+                           "at: [2011-12-30 12:00]", "at: [2011-12-30 sunrise]"}) {
+    const auto errors = plan_errors(apia(time));
+    ASSERT_EQ(errors.size(), 1u) << time;
+    EXPECT_NE(errors[0].message.find("the zone skipped that day"), std::string::npos)
+        << errors[0].message;
+    EXPECT_EQ(errors[0].span.source_line.substr(size_t(errors[0].span.column) - 1, 10),
+              "2011-12-30");
+  }
+}
+
+TEST(Schedule, DaysWithoutOrWithTwoMidnightsHaveTheirOwnLength) {
+  struct Case {
+    const char *time, *first, *last;
+    size_t frames;  // one an hour, both ends included
+  };
+  for (const Case& c : {
+           // Clocks jump from 00:00 to 01:00: 23 hours.
+           Case{"zone: America/Havana, date: 2026-03-08, step: 1 h", "2026-03-08T05:00:00Z",
+                "2026-03-09T04:00:00Z", 24},
+           // Clocks go back from 01:00 to 00:00: midnight twice, 25 hours.
+           Case{"zone: America/Havana, date: 2026-11-01, step: 1 h", "2026-11-01T04:00:00Z",
+                "2026-11-02T05:00:00Z", 26},
+           // 24:00 of the day before is the first of the two midnights.
+           Case{"zone: America/Havana, date: 2026-10-31, step: 1 h", "2026-10-31T04:00:00Z",
+                "2026-11-01T04:00:00Z", 25},
+           Case{"zone: Africa/Cairo, dates: 2026-04-01 .. 2026-04-30, at: [00:00]",
+                "2026-03-31T22:00:00Z", "2026-04-29T21:00:00Z", 30},
+           Case{"zone: America/Sao_Paulo, dates: 2018-11-01 .. 2018-11-07, at: [00:00]",
+                "2018-11-01T03:00:00Z", "2018-11-07T02:00:00Z", 7},
+       }) {
+    const auto times = utc_times(plan_of(with_time(c.time)));
+    EXPECT_EQ(times.size(), c.frames) << c.time;
+    EXPECT_EQ(times.front(), c.first) << c.time;
+    EXPECT_EQ(times.back(), c.last) << c.time;
+  }
+}
+
+TEST(Schedule, ClockTimesInsideASkippedOrRepeatedHourStayErrors) {
+  for (const char* time : {"date: 2026-03-08, at: [00:30]", "date: 2026-11-01, at: [00:30]"}) {
+    const auto errors = plan_errors(with_time("zone: America/Havana, " + std::string(time)));
+    ASSERT_EQ(errors.size(), 1u) << time;
+    const std::string all = errors[0].message + errors[0].hint;
+    EXPECT_NE(all.find("-05:00"), std::string::npos) << all;
+    EXPECT_NE(all.find("-04:00"), std::string::npos) << all;
+  }
+}
+
+TEST(Schedule, ASpanWithoutFramesSaysWhatToDo) {
+  const auto errors = plan_errors(
+      with_time("zone: Europe/Prague, date: 2026-06-21, from: 12:30, to: 12:31, every: 10 deg"));
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_NE(errors[0].message.find("no frame"), std::string::npos);
+  EXPECT_NE(errors[0].hint.find("smaller angle"), std::string::npos) << errors[0].hint;
+}
+
 TEST(Schedule, AMissingSunriseSaysWhereTheSunStays) {
   Scene scene = with_time(
       "zone: Arctic/Longyearbyen, date: 2026-06-21, from: sunrise, to: sunset, step: 1 h");

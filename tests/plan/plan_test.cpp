@@ -48,6 +48,29 @@ TEST(Plan, TwoFramesNeverWriteOneFile) {
   EXPECT_GT(errors[0].span.line, 0);
 }
 
+TEST(Plan, FacesCountWhereFilesCollide) {
+  Scene scene;
+  scene.time = "time: {zone: UTC, at: [2026-06-21 12:00]}";
+  scene.camera = "camera: {name: px, projection: cube, size: 16, layout: faces}";
+  scene.outputs = "outputs: [{image: \"{face}/{camera}.exr\"}, {image: \"{camera}/{face}.exr\"}]";
+  const auto errors = plan_errors(scene);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_NE(errors[0].message.find("would both write 'px/px.exr'"), std::string::npos)
+      << errors[0].message;
+}
+
+TEST(Plan, NoLocationIsNamedLikeTheRecordsOfTheProgram) {
+  for (const char* name : {"manifest.json", ".skylapse"}) {
+    Scene scene;
+    scene.location = "location: {name: " + std::string(name) + ", latitude: 50, longitude: 14}";
+    scene.outputs = "outputs: [{image: \"{site}/####.png\"}]";
+    const auto errors = plan_errors(scene);
+    ASSERT_EQ(errors.size(), 1u);
+    EXPECT_NE(errors[0].message.find("the program's own records"), std::string::npos)
+        << errors[0].message;
+  }
+}
+
 TEST(Plan, AMovieIsOneFileForManyFrames) {
   Scene scene;
   scene.outputs = "outputs: [{movie: day.mp4}]";
