@@ -159,7 +159,7 @@ TEST(HostileInput, DaysSearchedForEventsAreRefusedByArithmetic) {
         with(kSmallJob, "{zone: Europe/Prague, date: 2026-06-21, step: 10 min}", time));
   };
   EXPECT_EQ(error_at("{zone: UTC, dates: 1900-01-01 .. 2199-12-31, at: [sunrise]}"),
-            "2 [[] the events of up to 109573 days would have to be found | allowed: at most 40000 "
+            "2 [[] the events of up to 109573 days would have to be found | allowed: at most 10000 "
             "days and locations together; use fewer, or clock times");
   for (const char* time :
        {"{zone: UTC, dates: 1900-01-01 .. 2199-12-31, from: sunrise, frames: 1}",
