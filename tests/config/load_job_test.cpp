@@ -7,7 +7,7 @@
 
 #include "config/air_conversion.h"
 #include "config/job_text.h"
-#include "config/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace skylapse::config {
 namespace {
@@ -237,7 +237,7 @@ TEST(LoadJob, FilesThatCannotBeReadAreMissingInput) {
 }
 
 TEST(LoadJob, APipeIsRefusedInsteadOfWaitedFor) {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string pipe = folder.path() / "job.yaml", link = folder.path() / "link.yaml";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   std::filesystem::create_symlink(pipe, link);
@@ -250,7 +250,7 @@ TEST(LoadJob, APipeIsRefusedInsteadOfWaitedFor) {
 }
 
 TEST(LoadJob, ALinkToAConfigIsRead) {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.path() / "job.yaml") << kSmallJob;
   std::filesystem::create_symlink("job.yaml", folder.path() / "link.yaml");
   EXPECT_TRUE(load_job(folder.path() / "link.yaml").ok());
@@ -265,7 +265,7 @@ TEST(LoadJob, OutputNamesHaveOneSpelling) {
 }
 
 TEST(LoadJob, TheColourConfigIsSoughtBesideTheJob) {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string name = folder.path() / "job.yaml";
   std::ofstream(folder.path() / "studio.ocio") << "x";
   std::ofstream(name) << kSmallJob + "color: {space: acescg, ocio: studio.ocio}\n";

@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "output/in_child.h"
-#include "output/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace skylapse::output {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "output/image_writer.h"
 #include "output/in_child.h"
-#include "output/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace skylapse::output {
 namespace {

@@ -10,7 +10,7 @@
 #include "output/atomic_file.h"
 #include "output/child_process.h"
 #include "output/in_child.h"
-#include "output/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace skylapse::output {
 namespace {

@@ -4,17 +4,19 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace skylapse::output {
+namespace skylapse {
 
 /// A fresh folder that goes away with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "skylapse-test-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
     ::chmod(path_.c_str(), 0755);  // tests that give up root must still reach it
   }
   ~TemporaryFolder() {
@@ -38,4 +40,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace skylapse::output
+}  // namespace skylapse
