@@ -167,7 +167,7 @@ TEST(HostileInput, DaysSearchedForEventsAreRefusedByArithmetic) {
         "{zone: UTC, from: 1900-01-01 00:00, to: 2199-12-31 00:00, every: 90 deg}"})
     EXPECT_NE(error_at(time).find("would have to be found"), std::string::npos) << time;
   for (const char* time : {"{zone: UTC, dates: 1900-01-01 .. 2199-12-31, at: ['12:00']}",
-                           "{zone: UTC, dates: 2000-01-01 .. 2099-12-31, at: [sunrise, sunset]}"})
+                           "{zone: UTC, dates: 2000-01-01 .. 2026-12-31, at: [sunrise, sunset]}"})
     EXPECT_EQ(error_at(time), "no error");
 }
 
