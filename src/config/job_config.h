@@ -14,6 +14,8 @@
 #include "core/result.h"
 #include "image/camera/camera.h"
 #include "output/image_writer.h"
+#include "sky/atmosphere/atmosphere.h"
+#include "sky/bruneton/settings.h"
 #include "sky/hosek_wilkie/options.h"
 
 namespace skylapse::config {
@@ -73,18 +75,40 @@ struct Albedo {
   bool spectral = false;
 };
 
+/// What of the air may change during a job.
+struct AirState {
+  double aerosol_optical_depth = 0;  // vertical, 550 nm
+  double ozone_du = 300;
+};
+
+/// The air at a time; between two keyframes it goes linearly from one to the other, before the
+/// first and after the last it stays. Values that a keyframe leaves out are the job's.
+struct AirKeyframe {
+  TimeExpression time;
+  AirState state;
+};
+
 /// One dimension of the job per list: the frames of all combinations are rendered.
 struct Air {
   std::vector<Spanned<double>> turbidity{
       {2.5, {}}};  // 1..10, from turbidity, visibility or aerosol depth
   std::vector<Spanned<Albedo>> ground_albedo{{{"0.2", 0.2, false}, {}}};
   astro::RefractionConditions refraction;
+  /// Everything else about the air; its aerosol depth is that of `turbidity`, its ground that of
+  /// `ground_albedo`. For the models that compute the atmosphere.
+  sky::atmosphere::AirDescription description;
+  std::vector<AirKeyframe> keyframes;  // in the order written; sorted by the plan
+  /// The first key that only a model of the atmosphere understands (ozone, a profile, keyframes);
+  /// empty if every value is one that Hosek-Wilkie knows too.
+  std::optional<Spanned<std::string>> needs_atmosphere;
 };
 
-enum class SkyModel { automatic, hosek_wilkie };
+enum class SkyModel { automatic, hosek_wilkie, bruneton, single_scattering, hosek_wilkie_gl };
 
 struct Sky {
   SkyModel model = SkyModel::automatic;
+  sky::bruneton::Level level = sky::bruneton::Level::standard;
+  int wavelengths = 16;  // bands of the atmosphere models, 3..32
   sky::hosek_wilkie::Fit fit = sky::hosek_wilkie::Fit::spectral;
   sky::hosek_wilkie::SolarFlux solar_flux = sky::hosek_wilkie::SolarFlux::reference;
   bool sun_disc = true;

@@ -1,0 +1,45 @@
+#pragma once
+// All a frame needs to know of the sky: radiance over (azimuth from the sun, zenith angle) at the
+// camera's height, already in XYZ. A pixel is two bilinear lookups.
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "core/quantity.h"
+#include "sky/atmosphere/medium.h"
+
+namespace skylapse::sky::bruneton {
+
+/// Azimuth: node i of `azimuths` at phi = pi * (i / (azimuths - 1))^1.5 from the sun's azimuth, the
+/// sky being symmetric. Zenith angle: `zeniths` (even) rows in two halves that never mix. Row
+/// j < zeniths / 2 of the sky half has s = j / (zeniths / 2 - 1) and looks e = sky_span * s^2 above
+/// the geometric horizon; the rows of the ground half follow, at e = -ground_span * s^2.
+/// Nodes lie on the ends of both axes.
+struct SliceGrid {
+  int azimuths = 64;
+  int zeniths = 128;
+  double horizon_zenith_rad = 0;  // zenith angle of the geometric horizon, pi/2 plus its dip
+  double sky_span_rad = 0;        // to the zenith, or to the top of the atmosphere from outside it
+  double ground_span_rad = 0;     // to the nadir: pi - horizon_zenith
+};
+
+/// The grid of a camera at `height` (0 to far outside; asserted finite and >= 0).
+SliceGrid slice_grid(const atmosphere::Medium& medium, Length height, int azimuths, int zeniths);
+/// Sizes that keep the error of the bilinear lookup within the bound of docs/atmosphere.md: more
+/// rows the higher the camera, since the limb grows thin.
+SliceGrid slice_grid(const atmosphere::Medium& medium, Length height);
+
+/// Radiance = smooth + aerosol * aerosol_phase(nu): W m^-2 sr^-1 with CIE weights, 1 au.
+struct SkySlice {
+  SliceGrid grid;
+  double aerosol_g = 0;
+  double sun_zenith_rad = 0;  // at the camera; the scattering sun
+  /// [row][azimuth]. smooth: everything but the singly scattered aerosol light, and on the ground
+  /// half also the ground itself, lit by sun and sky, seen through the air. w is not used.
+  std::vector<glm::vec4> smooth, aerosol;
+
+  /// Radiance at a zenith angle and azimuth from the sun: the double-precision lookup, which judges
+  /// the pixel loop. Above sky_span (a camera in space) 0.
+  [[nodiscard]] glm::dvec3 radiance_xyz(Angle zenith, Angle azimuth_from_sun) const;
+};
+
+}  // namespace skylapse::sky::bruneton
