@@ -123,10 +123,11 @@ SolidAngle pixel_solid_angle(const Camera& camera, int x, int y) {
   return (in_circle(camera, centre) ? fisheye_solid_angle_sr(camera, x, y) : 0.0) * sr;
 }
 
-double horizon_coverage(Angle elevation, SolidAngle pixel) {
+double horizon_coverage(Angle elevation, SolidAngle pixel, Angle horizon) {
   const double side = std::sqrt(pixel.in(sr));
-  if (!(side > 0)) return elevation.in(rad) > 0 ? 1 : 0;
-  return std::clamp(elevation.in(rad) / side + 0.5, 0.0, 1.0);
+  const double over = (elevation - horizon).in(rad);
+  if (!(side > 0)) return over > 0 ? 1 : 0;
+  return std::clamp(over / side + 0.5, 0.0, 1.0);
 }
 
 }  // namespace skylapse::image

@@ -68,8 +68,9 @@ std::optional<PixelPosition> position_of(const Camera& camera, const Direction<E
 /// picture, as a whole, if its centre does: the pixels that direction_at lets a renderer fill.
 SolidAngle pixel_solid_angle(const Camera& camera, int x, int y);
 
-/// Share of a pixel above the horizon: clamp(elevation / side + 1/2), side = sqrt(solid angle),
-/// from the elevation of the pixel's centre. A pixel of no size is above or below.
-double horizon_coverage(Angle elevation, SolidAngle pixel);
+/// Share of a pixel above the horizon: clamp((elevation - horizon) / side + 1/2), side = sqrt(solid
+/// angle), from the elevation of the pixel's centre. A pixel of no size is above or below. The
+/// horizon of a camera above the ground lies below elevation 0 by its dip.
+double horizon_coverage(Angle elevation, SolidAngle pixel, Angle horizon = {});
 
 }  // namespace skylapse::image

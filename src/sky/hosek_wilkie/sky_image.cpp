@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "sky/hosek_wilkie/facet.h"
+#include "sky/facet.h"
 #include "sky/hosek_wilkie/frame_table.h"
 #include "sky/hosek_wilkie/sky_kernel.h"
 

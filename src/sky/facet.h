@@ -5,7 +5,7 @@
 
 #include "image/camera/camera.h"
 
-namespace skylapse::sky::hosek_wilkie {
+namespace skylapse::sky {
 
 /// Pixels [x_begin, x_end) of one row.
 struct PixelSpan {
@@ -37,4 +37,4 @@ struct Facet {
 /// of a cross have none.
 std::vector<Facet> facets_of(const image::Camera& camera);
 
-}  // namespace skylapse::sky::hosek_wilkie
+}  // namespace skylapse::sky

@@ -1,4 +1,4 @@
-#include "sky/hosek_wilkie/facet.h"
+#include "sky/facet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "image/camera/fisheye.h"
 #include "image/camera/perspective.h"
 
-namespace skylapse::sky::hosek_wilkie {
+namespace skylapse::sky {
 namespace {
 
 Facet whole_image(const image::Camera& camera) {
@@ -123,4 +123,4 @@ std::vector<Facet> facets_of(const image::Camera& camera) {
   }
 }
 
-}  // namespace skylapse::sky::hosek_wilkie
+}  // namespace skylapse::sky
