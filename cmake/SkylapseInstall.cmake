@@ -1,17 +1,17 @@
-# The library as a package: find_package(skylapse) gives skylapse::skylapse (sun, sky, cameras, colour)
+# The library as a package: find_package(skylapse) gives skylapse::skylapse (sun, sky, cameras, colour, GL)
 # and the parts it is made of.
 include(CMakePackageConfigHelpers)
 
 add_library(skylapse_library INTERFACE)
 add_library(skylapse::skylapse ALIAS skylapse_library)
 set_target_properties(skylapse_library PROPERTIES EXPORT_NAME skylapse)
-set(parts core data astro image color sky)
+set(parts core data astro image gpu color sky)
 list(TRANSFORM parts PREPEND skylapse_ OUTPUT_VARIABLE part_targets)
 target_link_libraries(skylapse_library INTERFACE ${part_targets})
 
 install(TARGETS skylapse_library ${part_targets} EXPORT skylapseTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-foreach(part IN ITEMS core astro image color sky)
+foreach(part IN ITEMS core astro image gpu color sky)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${part} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/skylapse
     FILES_MATCHING PATTERN "*.h")
 endforeach()

@@ -1,6 +1,6 @@
 # Writes version.cpp with a hash of everything that shapes pixels; run at every build, rewrites only on change.
 file(GLOB_RECURSE files LIST_DIRECTORIES false "${SOURCE_DIR}/src/*.cpp" "${SOURCE_DIR}/src/*.h"
-     "${SOURCE_DIR}/data/*" "${SOURCE_DIR}/shaders/*" "${SOURCE_DIR}/tools/embed_table.cpp")
+     "${SOURCE_DIR}/data/*" "${SOURCE_DIR}/shaders/*" "${SOURCE_DIR}/tools/embed_*.cpp")
 list(SORT files)
 set(all "")
 foreach(file IN LISTS files)

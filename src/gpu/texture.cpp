@@ -1,0 +1,55 @@
+#include "gpu/texture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gpu/functions.h"
+
+namespace skylapse::gpu {
+
+Result<Texture> Texture::create(const Functions& gl, TextureSize size, const float* texels) {
+  const int limit = gl.context->info().max_texture_3d;
+  const auto [smallest, largest] = std::minmax({size.width, size.height, size.depth});
+  if (smallest < 1 || largest > limit)
+    return Error{ErrorCode::internal,
+                 fmt::format("a table of {} x {} x {} texels does not fit this OpenGL, whose limit "
+                             "is {} along each axis",
+                             size.width, size.height, size.depth, limit)};
+  GLuint name = 0;
+  gl.CreateTextures(GL_TEXTURE_3D, 1, &name);
+  Texture texture;
+  texture.handle_ =
+      Handle(*gl.context, name, [](const Functions& f, unsigned n) { f.DeleteTextures(1, &n); });
+  texture.size_ = size;
+  gl.TextureStorage3D(name, 1, GL_RGBA32F, size.width, size.height, size.depth);
+  gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    gl.TextureParameteri(name, axis, GL_CLAMP_TO_EDGE);
+  if (texels != nullptr) texture.write(gl, texels);
+  return texture;
+}
+
+void Texture::write(const Functions& gl, const float* texels) const {
+  gl.TextureSubImage3D(handle_.name(), 0, 0, 0, 0, size_.width, size_.height, size_.depth, GL_RGBA,
+                       GL_FLOAT, texels);
+}
+
+std::vector<float> Texture::read(const Functions& gl) const {
+  std::vector<float> texels(4 * size_.texels());
+  gl.MemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+  gl.GetTextureImage(handle_.name(), 0, GL_RGBA, GL_FLOAT, GLsizei(texels.size() * sizeof(float)),
+                     texels.data());
+  return texels;
+}
+
+void Texture::bind(const Functions& gl, unsigned unit) const {
+  gl.BindTextureUnit(unit, handle_.name());
+}
+
+void Texture::bind_image(const Functions& gl, unsigned unit) const {
+  gl.BindImageTexture(unit, handle_.name(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+}
+
+}  // namespace skylapse::gpu

@@ -1,0 +1,39 @@
+#pragma once
+// Tables that shaders interpolate in: 3-D textures of four floats a texel, filtered linearly and
+// clamped at their edges. A 2-D table has depth 1.
+#include <cstddef>
+#include <vector>
+
+#include "core/result.h"
+#include "gpu/handle.h"
+
+namespace skylapse::gpu {
+
+struct TextureSize {
+  int width = 1, height = 1, depth = 1;
+  [[nodiscard]] size_t texels() const { return size_t(width) * size_t(height) * size_t(depth); }
+};
+
+/// Members with a `gl` run inside Context::run.
+class Texture {
+ public:
+  Texture() = default;
+  /// RGBA32F; `texels` (4 floats each, x fastest) may be null: the content is then undefined.
+  /// Refuses a size above the context's limit, naming it.
+  static Result<Texture> create(const Functions& gl, TextureSize size, const float* texels);
+
+  void write(const Functions& gl, const float* texels) const;
+  /// Four floats a texel. Waits for the shaders that write it.
+  [[nodiscard]] std::vector<float> read(const Functions& gl) const;
+  /// For sampler3D at `unit`.
+  void bind(const Functions& gl, unsigned unit) const;
+  /// For image3D (rgba32f) at `unit`, to be written.
+  void bind_image(const Functions& gl, unsigned unit) const;
+  [[nodiscard]] TextureSize size() const { return size_; }
+
+ private:
+  Handle handle_;
+  TextureSize size_;
+};
+
+}  // namespace skylapse::gpu
