@@ -10,6 +10,8 @@
 #include "cli/commands.h"
 #include "core/parallel.h"
 #include "core/version.h"
+#include "gpu/context.h"
+#include "gpu/self_test.h"
 #include "output/atomic_file.h"
 #include "output/image_writer.h"
 #include "output/movie_writer.h"
@@ -102,7 +104,32 @@ Finding check_temporary_files() {
           written ? "written whole and by rename" : written.error().message};
 }
 
+/// What `--backend NAME` would take, why it passed over others, and whether it computes.
+Finding check_gl(const char* name, gpu::Backend backend) {
+  const auto context = gpu::Context::create(backend);
+  if (!context) return {name, false, context.error().message + "; " + context.error().hint};
+  const gpu::ContextInfo& info = (*context)->info();
+  std::string text =
+      fmt::format("{}: {}, {}, OpenGL {}", info.backend, info.renderer, info.vendor, info.version);
+  const Status computes = gpu::self_test(**context);
+  text += computes ? "; computes" : "; " + computes.error().message;
+  for (const gpu::Attempt& attempt : info.attempts)
+    if (!attempt.reason.empty())
+      text += fmt::format("; passed over {}: {}", attempt.what, attempt.reason);
+  return {name, computes.ok(), text};
+}
+
+/// Either backend will do.
+Finding check_any_gl(const Finding& egl, const Finding& osmesa) {
+  const char* text = egl.ok      ? "--backend auto takes EGL"
+                     : osmesa.ok ? "--backend auto takes OSMesa"
+                                 : "only models that run on the CPU can be rendered";
+  return {"OpenGL", egl.ok || osmesa.ok, text};
+}
+
 ExitCode run_doctor(const ConsoleOptions& console) {
+  const Finding egl = check_gl("OpenGL/egl", gpu::Backend::egl);
+  const Finding osmesa = check_gl("OpenGL/osmesa", gpu::Backend::osmesa);
   const std::vector<Finding> findings{
       {"program", true, fmt::format("skylapse {} (source {:.12})", kVersion, kSourceHash)},
       {"cores", true, fmt::format("{}", available_cores())},
@@ -113,16 +140,22 @@ ExitCode run_doctor(const ConsoleOptions& console) {
       check_colour(),
       check_movies(),
       check_temporary_files(),
-      {"GL", true, "not needed: the models of this version run on the CPU"}};
+      egl,
+      osmesa,
+      check_any_gl(egl, osmesa)};
   bool healthy = true;
   auto json = nlohmann::ordered_json::array();
   for (const Finding& finding : findings) {
-    healthy = healthy && finding.ok;
+    const bool one_of_two = finding.name.starts_with("OpenGL/");
+    healthy = healthy && (finding.ok || one_of_two);
     if (console.json)
       json.push_back({{"check", finding.name}, {"ok", finding.ok}, {"text", finding.text}});
     else
-      print(
-          fmt::format("{:<5} {:<13} {}\n", finding.ok ? "ok" : "FAIL", finding.name, finding.text));
+      print(fmt::format("{:<5} {:<13} {}\n",
+                        finding.ok   ? "ok"
+                        : one_of_two ? "none"
+                                     : "FAIL",
+                        finding.name, finding.text));
   }
   if (console.json) print(json.dump(2) + "\n");
   return healthy ? ExitCode::done : ExitCode::missing_backend;
