@@ -1,0 +1,122 @@
+#include "sky/bruneton/physics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sky/bruneton/directions.h"
+#include "sky/bruneton/sun_rows.h"
+
+namespace skylapse::sky::bruneton {
+namespace {
+
+using text::PI;
+
+double set_pieces(text::AirParameters& air, int first, const atmosphere::DensityProfile& profile) {
+  const int count = std::min<int>(int(profile.terms.size()), text::MAX_DENSITY_TERMS);
+  for (int i = 0; i < count; ++i) {
+    const atmosphere::DensityTerm& term = profile.terms[i];
+    air.pieces[first + i] = {term.bottom_km,
+                             term.top_km,
+                             term.amplitude,
+                             term.inverse_scale_height_per_km,
+                             term.slope_per_km,
+                             term.constant,
+                             0,
+                             0};
+  }
+  return count;
+}
+
+void set_phase(text::AirParameters& air, const atmosphere::Medium& medium) {
+  // Bucholtz 1995, Eqs. 10-12: gamma = rho / (2 - rho).
+  const double gamma = medium.rayleigh_depolarization / (2 - medium.rayleigh_depolarization);
+  const double norm = 3 / (16 * PI * (1 + 2 * gamma));
+  air.rayleigh_constant = norm * (1 + 3 * gamma);
+  air.rayleigh_quadratic = norm * (1 - gamma);
+  const double g = medium.aerosol_g;
+  air.aerosol_g = g;
+  air.aerosol_norm = 3 / (8 * PI) * (1 - g * g) / (2 + g * g);
+}
+
+void set_table_coordinates(text::AirParameters& air, const atmosphere::Medium& medium,
+                           const Settings& settings) {
+  const SunWarp warp = sun_warp(medium);
+  air.sun_centre = warp.centre_rad;
+  air.sun_width = warp.width_rad;
+  air.sun_first = warp.first();
+  air.sun_row_last = settings.sun_rows() - 1;
+  air.sun_rows_per_unit = air.sun_row_last / warp.span();
+  air.height_last = settings.heights - 1;
+  air.zenith_last = settings.table_zeniths - 1;
+  air.azimuth_last = settings.table_azimuths - 1;
+  air.height_power = 1 / kHeightExponent;
+  air.columns_height_last = kColumnHeights - 1;
+  air.columns_distance_last = kColumnDistances - 1;
+}
+
+}  // namespace
+
+text::AirParameters air_parameters(const atmosphere::Medium& medium, const Settings& settings) {
+  text::AirParameters air{};
+  const double H = medium.top_height_km;
+  air.bottom_radius = medium.bottom_radius_km;
+  air.top_height = H;
+  air.sun_angular_radius = medium.sun_angular_radius_rad;
+  air.horizon_length = std::sqrt(H * (2 * medium.bottom_radius_km + H));
+  set_phase(air, medium);
+  set_table_coordinates(air, medium, settings);
+  air.rayleigh_terms = set_pieces(air, 0, medium.rayleigh);
+  air.aerosol_terms = set_pieces(air, text::MAX_DENSITY_TERMS, medium.aerosol);
+  air.ozone_terms = set_pieces(air, 2 * text::MAX_DENSITY_TERMS, medium.ozone);
+  return air;
+}
+
+std::vector<text::BandGroup> band_groups(const atmosphere::Medium& medium) {
+  std::vector<text::BandGroup> groups((medium.bands.size() + 3) / 4);
+  for (size_t i = 0; i < 4 * groups.size(); ++i) {
+    const atmosphere::SpectralBand& band = medium.bands[std::min(i, medium.bands.size() - 1)];
+    text::BandGroup& group = groups[i / 4];
+    const int channel = int(i % 4);
+    group.solar_irradiance[channel] = band.solar_irradiance;
+    group.rayleigh_scattering[channel] = band.rayleigh_scattering_per_km;
+    group.aerosol_scattering[channel] = band.aerosol_scattering_per_km;
+    group.aerosol_extinction[channel] = band.aerosol_extinction_per_km;
+    group.ozone_absorption[channel] = band.ozone_absorption_per_km;
+    group.ground_albedo[channel] = band.ground_albedo;
+  }
+  return groups;
+}
+
+std::vector<glm::dvec2> gauss_nodes(int count) {
+  std::vector<glm::dvec2> nodes(count);
+  for (int i = 0; i < count; ++i) {
+    // Newton's method on P_count from Tricomi's first guess.
+    double x = std::cos(PI * (i + 0.75) / (count + 0.5));
+    double slope = 1;
+    for (int step = 0; step < 100; ++step) {
+      double p0 = 1, p1 = x;
+      for (int n = 2; n <= count; ++n) {
+        const double p2 = ((2 * n - 1) * x * p1 - (n - 1) * p0) / n;
+        p0 = p1;
+        p1 = p2;
+      }
+      slope = count * (x * p1 - p0) / (x * x - 1);
+      const double change = p1 / slope;
+      x -= change;
+      if (std::abs(change) < 1e-15) break;
+    }
+    nodes[count - 1 - i] = {0.5 * (1 + x), 1 / ((1 - x * x) * slope * slope)};
+  }
+  return nodes;
+}
+
+PhysicsData physics_data(const atmosphere::Medium& medium, const Settings& settings, int samples) {
+  PhysicsData data;
+  data.air = air_parameters(medium, settings);
+  data.air.march_samples = samples;
+  data.groups = band_groups(medium);
+  data.gauss = gauss_nodes(samples);
+  return data;
+}
+
+}  // namespace skylapse::sky::bruneton
