@@ -28,9 +28,9 @@ struct Atmosphere {
 /// Edges of `bands` (1..64) bins that cover 360..830 nm, narrow where eye and sun make them count.
 std::vector<Wavelength> band_edges(int bands);
 
-/// Means over each bin: solar irradiance by wavelength, everything else weighted by the solar
-/// spectrum; xyz_weight such that a radiance proportional to the sun's spectrum has the XYZ of the
-/// whole spectrum.
+/// Means over each bin: solar irradiance by wavelength, everything else weighted by what sun and
+/// eye make of each wavelength; xyz_weight (0 or more) such that a radiance proportional to the
+/// sun's spectrum has the XYZ of the whole spectrum.
 Medium medium_at(const Atmosphere& atmosphere, const std::vector<Wavelength>& edges);
 /// Samples at wavelengths instead of means; xyz_weight is 0.
 Medium medium_sampled(const Atmosphere& atmosphere, const std::vector<Wavelength>& wavelengths);
