@@ -16,7 +16,7 @@ namespace skylapse::sky::monte_carlo {
 struct ReferenceOptions {
   long samples = 100000;  // paths; with relative_error: at most
   /// Stop once the standard error of every band's radiance is below this share of the radiance.
-  std::optional<double> relative_error;
+  std::optional<double> relative_error = {};
   uint64_t seed = 1;
   int max_order = 0;    // scattering events and ground bounces together; 0: no limit
   bool ground = false;  // add what the ground at the end of the view ray reflects
