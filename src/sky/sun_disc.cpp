@@ -12,7 +12,7 @@ namespace {
 struct LitPixel {
   PixelLight light;
   double solid_angle;
-  double sine;  // of the centre's elevation; 0 below the horizon
+  double sine;  // of the centre's elevation; 0 below the level
 };
 
 /// One entry per pixel, in reading order.
@@ -104,11 +104,11 @@ ProjectedDisc to_radiance(const std::vector<LitPixel>& pixels) {
 
 ProjectedDisc project_sun_disc(const image::Camera& camera, const SunDisc& disc) {
   assert(disc.radius > Angle{} && disc.radius <= 10 * deg);
-  const Angle el = elevation(disc.centre);
+  const Angle el = elevation(disc.centre) - disc.horizon;
   if (el <= -disc.radius) return {};
   const LatticePlan plan = plan_lattice(camera, disc);
   const Angle reach = disc.radius + 3 * plan.pixel_extent_rad * rad;
-  const bool near_horizon = el < reach;
+  const std::optional<Angle> near_horizon = el < reach ? std::optional(disc.horizon) : std::nullopt;
   LatticeSums sums;
   std::vector<PixelLight> light;
   for (const image::Chart& chart : image::charts(camera)) {

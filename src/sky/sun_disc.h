@@ -11,20 +11,23 @@
 
 namespace skylapse::sky {
 
-/// A disc on the sky, cut by the horizon (elevation 0).
+/// A disc on the sky, cut by the horizon.
 struct SunDisc {
   Direction<Enu> centre;  // as seen: refracted, if refraction is on
   Angle radius;           // in (0, 10] deg
-  /// Radiance per output channel at a view elevation in [0, 90] deg and the limb variable
-  /// m = sqrt(1 - (sin gamma / sin radius)^2): 1 in the middle, 0 at the limb. Finite; channels
-  /// may be negative (a red sun outside the gamut).
+  /// Radiance per output channel at a view elevation from the horizon to 90 deg and the limb
+  /// variable m = sqrt(1 - (sin gamma / sin radius)^2): 1 in the middle, 0 at the limb. Finite;
+  /// channels may be negative (a red sun outside the gamut).
   std::function<glm::dvec3(Angle view_elevation, double limb_m)> radiance;
+  /// Elevation of the horizon, in (-90, 0] deg: minus the dip of a camera above the ground.
+  Angle horizon{};
 };
 
 /// Irradiance by the disc, per channel, in its radiance unit times steradian.
 struct DiscEnergy {
   glm::dvec3 normal_irradiance{0};      // sum of L dOmega: on a surface that faces the disc
-  glm::dvec3 horizontal_irradiance{0};  // sum of L sin(elevation) dOmega: on the ground
+  glm::dvec3 horizontal_irradiance{0};  // sum of L sin(elevation) dOmega where that
+                                        // is positive: on a level surface
 };
 
 /// Irradiance by the part of the disc above the horizon, by Gauss quadrature; nothing when no part

@@ -26,13 +26,16 @@ int cuts(double extent, double r) {
 class DiscSampler {
  public:
   explicit DiscSampler(const SunDisc& disc)
-      : disc_(disc), radius_(disc.radius.in(rad)), sine_radius_(sin(disc.radius)) {}
+      : disc_(disc),
+        radius_(disc.radius.in(rad)),
+        sine_radius_(sin(disc.radius)),
+        horizon_(disc.horizon.in(rad)) {}
 
   struct Sample {
     double weight = 0;  // covered solid angle
     double above = 0;   // share of the cell above the horizon
     glm::dvec3 flux{0};
-    double sine = 0;  // of the elevation of the covered part's middle
+    double sine = 0;  // of the elevation of the covered part's middle; 0 below the level
   };
 
   [[nodiscard]] Sample operator()(const Direction<Enu>& direction, SolidAngle cell) const {
@@ -42,21 +45,23 @@ class DiscSampler {
     const double in_disc = std::clamp((radius_ - gamma) / side + 0.5, 0.0, 1.0);
     if (in_disc == 0 || side == 0) return {};
     const double el = elevation(direction).in(rad);
-    const double above = image::horizon_coverage(el * rad, cell);
+    const double above = image::horizon_coverage(el * rad, cell, disc_.horizon);
     if (above == 0) return {};
-    const double middle_el = above < 1 ? 0.5 * (el + 0.5 * side) : el;
+    const double middle_el = above < 1 ? 0.5 * (el + horizon_ + 0.5 * side) : el;
     const double inner = std::max(0.0, gamma - 0.5 * side);
     const double middle_gamma = in_disc < 1 ? 0.5 * (inner + radius_) : gamma;
     const double q = std::sin(std::min(middle_gamma, radius_)) / sine_radius_;
     const double limb = std::sqrt(std::max(0.0, 1 - q * q));
     const double weight = cell.in(sr)*in_disc * above;
-    return {weight, above, weight * disc_.radiance(middle_el * rad, limb), std::sin(middle_el)};
+    return {weight, above, weight * disc_.radiance(middle_el * rad, limb),
+            std::max(0.0, std::sin(middle_el))};
   }
 
  private:
   const SunDisc& disc_;
   double radius_;
   double sine_radius_;
+  double horizon_;
 };
 
 void count(PacketSums& sums, const DiscSampler::Sample& sample, double part) {

@@ -14,7 +14,7 @@ constexpr double kNoRoom = 1e-6;
 
 }  // namespace
 
-SplatPlane::SplatPlane(const image::Chart& chart, double tent, bool horizon)
+SplatPlane::SplatPlane(const image::Chart& chart, double tent, std::optional<Angle> horizon)
     : chart_(chart), tent_(tent), horizon_(horizon) {}
 
 double SplatPlane::share(int x, int y) const {
@@ -23,7 +23,7 @@ double SplatPlane::share(int x, int y) const {
   const auto sample = image::chart_sample(chart_, {x + 0.5, y + 0.5});
   if (!sample) return 0;
   return image::horizon_coverage(elevation(image::to_enu(chart_.camera, sample->direction)),
-                                 sample->sr_per_pixel * sr);
+                                 sample->sr_per_pixel * sr, *horizon_);
 }
 
 SplatPlane::Pixel& SplatPlane::pixel_at(int x, int y) {

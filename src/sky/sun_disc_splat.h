@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -30,11 +31,11 @@ struct PixelLight {
 /// Collects packets on the pixels of one chart. A packet is shared among the four pixels whose
 /// centres are nearest, by a tent (bilinear) or, for discs of many pixels, less and less so:
 /// `tent` = 1 keeps a packet's place exactly, 0 gives everything to the pixel it lies in.
-/// Pixels outside the picture get nothing; with `horizon`, pixels below the horizon get nothing
+/// Pixels outside the picture get nothing; with a `horizon`, pixels below the horizon get nothing
 /// and those it crosses their share of the sky: the others take over.
 class SplatPlane {
  public:
-  SplatPlane(const image::Chart& chart, double tent, bool horizon);
+  SplatPlane(const image::Chart& chart, double tent, std::optional<Angle> horizon);
 
   void add(const LightPacket& packet);
 
@@ -58,7 +59,7 @@ class SplatPlane {
 
   image::Chart chart_;
   double tent_;
-  bool horizon_;
+  std::optional<Angle> horizon_;
   std::unordered_map<uint64_t, std::unique_ptr<Tile>> tiles_;
   uint64_t last_key_ = 0;
   Tile* last_tile_ = nullptr;
