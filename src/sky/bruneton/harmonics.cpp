@@ -3,6 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "sky/bruneton/directions.h"
+#include "sky/bruneton/physics.h"
+
 namespace skylapse::sky::bruneton {
 
 std::vector<double> legendre_factors(int degree, double mu) {
@@ -47,6 +50,33 @@ std::vector<double> aerosol_moments(double g, int degree) {
   for (int l = 0; l <= degree; ++l) {
     const double twice = ((l + 1) * once(l + 1) + l * once(l - 1)) / (2 * l + 1);
     moments[l] = 1.5 / (2 + g * g) * (greenstein(l) + twice);
+  }
+  return moments;
+}
+
+std::vector<std::vector<std::vector<glm::dvec4>>> mixture_moments(const atmosphere::Medium& medium,
+                                                                  const Settings& settings) {
+  const std::vector<double> rayleigh =
+      rayleigh_moments(medium.rayleigh_depolarization, settings.harmonics);
+  const std::vector<double> aerosol = aerosol_moments(medium.aerosol_g, settings.harmonics);
+  const std::vector<text::BandGroup> groups = band_groups(medium);
+  std::vector<std::vector<std::vector<glm::dvec4>>> moments(settings.heights);
+  for (int i = 0; i < settings.heights; ++i) {
+    // Just below the node: profiles end at the top, and the air there is what rays end in.
+    const double h = height_node(settings, medium.top_height_km, i) * (1 - 1e-9);
+    for (const text::BandGroup& group : groups) {
+      const glm::dvec4 air = group.rayleigh_scattering * medium.rayleigh.at(h);
+      const glm::dvec4 particles = group.aerosol_scattering * medium.aerosol.at(h);
+      const glm::dvec4 both = air + particles;
+      std::vector<glm::dvec4> mixed;
+      for (int l = 0; l <= settings.harmonics; ++l) {
+        glm::dvec4 value(rayleigh[l]);
+        for (int c = 0; c < 4; ++c)
+          if (both[c] > 0) value[c] = (air[c] * rayleigh[l] + particles[c] * aerosol[l]) / both[c];
+        mixed.push_back(value);
+      }
+      moments[i].push_back(std::move(mixed));
+    }
   }
   return moments;
 }

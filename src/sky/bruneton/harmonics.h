@@ -1,9 +1,11 @@
 #pragma once
 // Real spherical harmonics that are even in azimuth: a convolution with a phase function is a
 // product of coefficients.
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "sky/atmosphere/medium.h"
+#include "sky/bruneton/settings.h"
 
 namespace skylapse::sky::bruneton {
 
@@ -25,5 +27,11 @@ std::vector<double> legendre_factors(int degree, double mu);
 std::vector<double> rayleigh_moments(double depolarization, int degree);
 /// Cornette-Shanks in closed form: Henyey-Greenstein has g^l, (1 + nu^2) couples l - 2..l + 2.
 std::vector<double> aerosol_moments(double g, int degree);
+
+/// [height node][group of four bands][l]: moments of the phase function of the air as it is mixed
+/// at the height nodes, (b_R rayleigh + b_M aerosol) / (b_R + b_M); of Rayleigh where nothing
+/// scatters.
+std::vector<std::vector<std::vector<glm::dvec4>>> mixture_moments(const atmosphere::Medium& medium,
+                                                                  const Settings& settings);
 
 }  // namespace skylapse::sky::bruneton

@@ -33,9 +33,8 @@ void set_phase(text::AirParameters& air, const atmosphere::Medium& medium) {
   const double norm = 3 / (16 * PI * (1 + 2 * gamma));
   air.rayleigh_constant = norm * (1 + 3 * gamma);
   air.rayleigh_quadratic = norm * (1 - gamma);
-  const double g = medium.aerosol_g;
-  air.aerosol_g = g;
-  air.aerosol_norm = 3 / (8 * PI) * (1 - g * g) / (2 + g * g);
+  air.aerosol_g = medium.aerosol_g;
+  air.aerosol_norm = aerosol_phase_norm(medium.aerosol_g);
 }
 
 void set_table_coordinates(text::AirParameters& air, const atmosphere::Medium& medium,
@@ -86,6 +85,8 @@ std::vector<text::BandGroup> band_groups(const atmosphere::Medium& medium) {
   }
   return groups;
 }
+
+double aerosol_phase_norm(double g) { return 3 / (8 * PI) * (1 - g * g) / (2 + g * g); }
 
 std::vector<glm::dvec2> gauss_nodes(int count) {
   std::vector<glm::dvec2> nodes(count);

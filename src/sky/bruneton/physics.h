@@ -54,6 +54,9 @@ text::AirParameters air_parameters(const atmosphere::Medium& medium, const Setti
 /// The coefficients in groups of four bands; spare channels of the last repeat the last band.
 std::vector<text::BandGroup> band_groups(const atmosphere::Medium& medium);
 
+/// Factor of aerosol_phase (phase.glsl) at a shape parameter.
+double aerosol_phase_norm(double g);
+
 /// Gauss-Legendre nodes in (0, 1), ascending, and weights that sum to 1.
 std::vector<glm::dvec2> gauss_nodes(int count);
 

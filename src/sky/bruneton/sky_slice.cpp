@@ -1,0 +1,63 @@
+#include "sky/bruneton/sky_slice.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "sky/bruneton/physics.h"
+
+namespace skylapse::sky::bruneton {
+namespace {
+
+constexpr double kHalfTurn = std::numbers::pi;
+
+}  // namespace
+
+SliceGrid slice_grid(const atmosphere::Medium& medium, Length height, int azimuths, int zeniths) {
+  const double h = height.in(km), R = medium.bottom_radius_km, H = medium.top_height_km;
+  assert(std::isfinite(h) && h >= 0 && azimuths >= 2 && zeniths >= 4 && zeniths % 2 == 0);
+  SliceGrid grid;
+  grid.azimuths = azimuths;
+  grid.zeniths = zeniths;
+  const double dip = std::atan2(std::sqrt(h * (2 * R + h)), R);
+  grid.horizon_zenith_rad = kHalfTurn / 2 + dip;
+  grid.ground_span_rad = kHalfTurn - grid.horizon_zenith_rad;
+  // From outside, the air ends at the tangent to its top.
+  const double top_dip = h > H ? std::atan2(std::sqrt((h - H) * (2 * R + h + H)), R + H) : 0;
+  grid.sky_span_rad = h > H ? dip - top_dip : grid.horizon_zenith_rad;
+  return grid;
+}
+
+SliceGrid slice_grid(const atmosphere::Medium& medium, Length height) {
+  return slice_grid(medium, height, 64, 128);
+}
+
+glm::dvec3 SkySlice::radiance_xyz(Angle zenith, Angle azimuth_from_sun) const {
+  const double phi = std::abs(std::remainder(azimuth_from_sun.in(rad), 2 * kHalfTurn));
+  const double above = grid.horizon_zenith_rad - zenith.in(rad);
+  if (above > grid.sky_span_rad) return glm::dvec3(0);
+  const int half = grid.zeniths / 2;
+  const double span = above >= 0 ? grid.sky_span_rad : grid.ground_span_rad;
+  const double s = span > 0 ? std::sqrt(std::min(std::abs(above) / span, 1.0)) : 0;
+  const text::Between y = text::between(s * (half - 1), half - 1);
+  const double share = std::pow(std::min(phi / kHalfTurn, 1.0), 2.0 / 3.0);
+  const text::Between x = text::between(share * (grid.azimuths - 1), grid.azimuths - 1);
+  const size_t corner = size_t(y.node + (above >= 0 ? 0 : half)) * grid.azimuths + x.node;
+  const auto lookup = [&](const std::vector<glm::vec4>& texels) {
+    const auto at = [&](size_t i) { return glm::dvec3(texels[i]); };
+    return (at(corner) * (1 - x.weight) + at(corner + 1) * x.weight) * (1 - y.weight) +
+           (at(corner + grid.azimuths) * (1 - x.weight) +
+            at(corner + grid.azimuths + 1) * x.weight) *
+               y.weight;
+  };
+  // 1 - nu = 2 sin^2 of half the angle: exact at the sun, where the aerosol phase is steepest.
+  const double a = std::sin((zenith.in(rad)-sun_zenith_rad) / 2), b = std::sin(phi / 2);
+  const double nu = 1 - 2 * (a * a + std::sin(zenith.in(rad)) * std::sin(sun_zenith_rad) * b * b);
+  PhysicsData phase;
+  phase.air.aerosol_g = aerosol_g;
+  phase.air.aerosol_norm = aerosol_phase_norm(aerosol_g);
+  return lookup(smooth) + lookup(aerosol) * Geometry(phase).aerosol_phase(std::max(nu, -1.0));
+}
+
+}  // namespace skylapse::sky::bruneton
