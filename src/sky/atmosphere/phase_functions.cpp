@@ -27,11 +27,10 @@ double rayleigh_phase(double rho, double nu) {
 }
 
 double aerosol_phase(double g, double nu) {
-  const double g2 = g * g;
-  // 1 + g^2 - 2 g nu without cancellation where the peak is.
+  // 1 - g^2 and 1 + g^2 - 2 g nu without cancellation where the peak is.
   const double d =
       g >= 0 ? (1 - g) * (1 - g) + 2 * g * (1 - nu) : (1 + g) * (1 + g) - 2 * g * (1 + nu);
-  return 3 / (8 * kPi) * (1 - g2) / (2 + g2) * (1 + nu * nu) / (d * std::sqrt(d));
+  return 3 / (8 * kPi) * (1 - g) * (1 + g) / (2 + g * g) * (1 + nu * nu) / (d * std::sqrt(d));
 }
 
 std::vector<double> rayleigh_moments(double rho, int degree) {
