@@ -5,55 +5,10 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "sky/bruneton/physics.h"
 #include "sky/bruneton/rays.h"
+#include "sky/bruneton/twin_march.h"
 
 namespace skylapse::sky::bruneton {
-namespace {
-
-/// Four numbers a group, cut to the bands there are.
-struct Bands {
-  std::vector<double> values;
-  size_t count;
-  void add(const glm::dvec4& group) {
-    for (int c = 0; c < 4 && values.size() < count; ++c) values.push_back(group[c]);
-  }
-};
-
-PhysicsData march_data(const Tables& tables, const Columns& columns, int samples) {
-  PhysicsData data = physics_data(tables.medium, tables.settings, samples);
-  data.columns = columns.nodes().data();
-  data.tables = &tables;
-  return data;
-}
-
-/// Calls body(text, first group) for all groups, marching up to four of them together.
-template <class Body>
-void for_groups(const PhysicsData& data, const Body& body) {
-  const int groups = int(data.groups.size());
-  int first = 0;
-  for (; first + 4 <= groups; first += 4) {
-    text::Physics<4> physics(data, first);
-    body(physics, first);
-  }
-  for (; first < groups; ++first) {
-    text::Physics<1> physics(data, first);
-    body(physics, first);
-  }
-}
-
-/// Transmittance towards the sun's centre, times the visible part of its disc.
-glm::dvec4 sun_transmittance(Geometry& text, const Columns& columns, const text::BandGroup& band,
-                             double h, double mu_s) {
-  const double visible = text.sun_visibility(h, mu_s);
-  if (visible <= 0) return glm::dvec4(0);
-  const text::Ray ray = make_ray(columns, h, std::max(mu_s, text.horizon_mu(h)), RaySide::sky);
-  const glm::dvec3 path = columns.paths().columns(ray.height, ray.mu, 0, ray.length);
-  return glm::exp(-text.optical_depth(band, path)) * visible;
-}
-
-}  // namespace
-
 Twin::Twin(std::shared_ptr<const Tables> tables)
     : tables_(std::move(tables)), columns_(make_columns(tables_->medium)) {}
 
@@ -70,6 +25,8 @@ Answer Twin::answer(const Query& query, const MarchSettings& march) const {
       1 - 2 * (a * a + sin(query.view_zenith) * sin(query.sun_zenith) * b * b), -1.0, 1.0);
   const text::Ray ray = make_ray(*columns_, h, mu);
   const size_t count = medium().bands.size();
+  const glm::dvec3 to_sun = columns_to_sun(*columns_, h, mu_s);
+  const double visible = Geometry(data).sun_visibility(h, mu_s);
   Bands radiance{{}, count}, transmittance{{}, count}, sun{{}, count};
   for_groups(data, [&](auto& text, int first) {
     const text::SunOfRay at = text.sun_of_ray(ray, mu_s, nu);
@@ -80,8 +37,7 @@ Answer Twin::answer(const Query& query, const MarchSettings& march) const {
       if (march.ground) sum += text.ground_through_air(g, ray, at, light);
       radiance.add(sum);
       transmittance.add(light.transmittance[g]);
-      Geometry geometry(data);
-      sun.add(sun_transmittance(geometry, *columns_, data.groups[first + g], h, mu_s));
+      sun.add(glm::exp(-text.optical_depth(data.groups[first + g], to_sun)) * visible);
     }
   });
   return {radiance.values, transmittance.values, sun.values};
@@ -97,6 +53,33 @@ std::vector<double> Twin::transmittance(Length height, Angle zenith) const {
   for (const text::BandGroup& band : data.groups)
     result.add(ray.hits_ground > 0 ? glm::dvec4(0) : glm::exp(-text.optical_depth(band, path)));
   return result.values;
+}
+
+Twin::AerialPerspective Twin::aerial_perspective(const glm::dvec3& from_km, const glm::dvec3& to_km,
+                                                 const glm::dvec3& to_sun,
+                                                 const MarchSettings& march) const {
+  const size_t count = medium().bands.size();
+  const double distance = glm::length(to_km - from_km), radius = glm::length(from_km);
+  if (distance <= 0 || radius <= 0)
+    return {std::vector<double>(count, 0.0), std::vector<double>(count, 1.0)};
+  const PhysicsData data = march_data(*tables_, *columns_, march.samples);
+  const bool multiple = march.multiple_scattering && !tables_->source.empty();
+  const glm::dvec3 direction = (to_km - from_km) / distance;
+  const double h = std::max(radius - medium().bottom_radius_km, 0.0);
+  const double mu = std::clamp(glm::dot(from_km, direction) / radius, -1.0, 1.0);
+  const double mu_s = std::clamp(glm::dot(from_km, to_sun) / radius, -1.0, 1.0);
+  const double nu = std::clamp(glm::dot(direction, to_sun), -1.0, 1.0);
+  const text::Ray ray = make_ray(*columns_, h, mu, RaySide::by_direction, distance);
+  Bands in_scatter{{}, count}, transmittance{{}, count};
+  for_groups(data, [&](auto& text, int) {
+    const auto light = text.march(ray, text.sun_of_ray(ray, mu_s, nu), multiple);
+    for (int g = 0; g < text.GROUPS; ++g) {
+      in_scatter.add(light.rayleigh[g] * text.rayleigh_phase(nu) +
+                     light.aerosol[g] * text.aerosol_phase(nu) + light.multiple[g]);
+      transmittance.add(light.transmittance[g]);
+    }
+  });
+  return {in_scatter.values, transmittance.values};
 }
 
 SkySlice Twin::slice(Length camera_height, Angle sun_zenith, const SliceGrid& grid,
