@@ -44,7 +44,9 @@ class Context;
   X(NamedBufferSubData, NAMEDBUFFERSUBDATA)       \
   X(ShaderSource, SHADERSOURCE)                   \
   X(TextureParameteri, TEXTUREPARAMETERI)         \
+  X(TextureStorage2D, TEXTURESTORAGE2D)           \
   X(TextureStorage3D, TEXTURESTORAGE3D)           \
+  X(TextureSubImage2D, TEXTURESUBIMAGE2D)         \
   X(TextureSubImage3D, TEXTURESUBIMAGE3D)         \
   X(UseProgram, USEPROGRAM)
 

@@ -10,19 +10,23 @@ namespace skylapse::gpu {
 
 Result<Texture> Texture::create(const Functions& gl, TextureSize size, const float* texels) {
   const int limit = gl.context->info().max_texture_3d;
-  const auto [smallest, largest] = std::minmax({size.width, size.height, size.depth});
+  const auto [smallest, largest] =
+      std::minmax({size.width, size.height, size.depth == 0 ? 1 : size.depth});
   if (smallest < 1 || largest > limit)
     return Error{ErrorCode::internal,
                  fmt::format("a table of {} x {} x {} texels does not fit this OpenGL, whose limit "
                              "is {} along each axis",
                              size.width, size.height, size.depth, limit)};
   GLuint name = 0;
-  gl.CreateTextures(GL_TEXTURE_3D, 1, &name);
+  gl.CreateTextures(size.depth == 0 ? GL_TEXTURE_2D : GL_TEXTURE_3D, 1, &name);
   Texture texture;
   texture.handle_ =
       Handle(*gl.context, name, [](const Functions& f, unsigned n) { f.DeleteTextures(1, &n); });
   texture.size_ = size;
-  gl.TextureStorage3D(name, 1, GL_RGBA32F, size.width, size.height, size.depth);
+  if (size.depth == 0)
+    gl.TextureStorage2D(name, 1, GL_RGBA32F, size.width, size.height);
+  else
+    gl.TextureStorage3D(name, 1, GL_RGBA32F, size.width, size.height, size.depth);
   gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
@@ -32,8 +36,12 @@ Result<Texture> Texture::create(const Functions& gl, TextureSize size, const flo
 }
 
 void Texture::write(const Functions& gl, const float* texels) const {
-  gl.TextureSubImage3D(handle_.name(), 0, 0, 0, 0, size_.width, size_.height, size_.depth, GL_RGBA,
-                       GL_FLOAT, texels);
+  if (size_.depth == 0)
+    gl.TextureSubImage2D(handle_.name(), 0, 0, 0, size_.width, size_.height, GL_RGBA, GL_FLOAT,
+                         texels);
+  else
+    gl.TextureSubImage3D(handle_.name(), 0, 0, 0, 0, size_.width, size_.height, size_.depth,
+                         GL_RGBA, GL_FLOAT, texels);
 }
 
 std::vector<float> Texture::read(const Functions& gl) const {

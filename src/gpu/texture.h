@@ -1,6 +1,6 @@
 #pragma once
-// Tables that shaders interpolate in: 3-D textures of four floats a texel, filtered linearly and
-// clamped at their edges. A 2-D table has depth 1.
+// Tables that shaders interpolate in: textures of four floats a texel, filtered linearly and
+// clamped at their edges.
 #include <cstddef>
 #include <vector>
 
@@ -10,8 +10,11 @@
 namespace skylapse::gpu {
 
 struct TextureSize {
-  int width = 1, height = 1, depth = 1;
-  [[nodiscard]] size_t texels() const { return size_t(width) * size_t(height) * size_t(depth); }
+  int width = 1, height = 1;
+  int depth = 0;  // 0: a sampler2D, whose lookup costs half of a sampler3D's
+  [[nodiscard]] size_t texels() const {
+    return size_t(width) * size_t(height) * size_t(depth == 0 ? 1 : depth);
+  }
 };
 
 /// Members with a `gl` run inside Context::run.
@@ -25,9 +28,9 @@ class Texture {
   void write(const Functions& gl, const float* texels) const;
   /// Four floats a texel. Waits for the shaders that write it.
   [[nodiscard]] std::vector<float> read(const Functions& gl) const;
-  /// For sampler3D at `unit`.
+  /// For sampler2D or sampler3D at `unit`.
   void bind(const Functions& gl, unsigned unit) const;
-  /// For image3D (rgba32f) at `unit`, to be written.
+  /// For image2D or image3D (rgba32f) at `unit`, to be written.
   void bind_image(const Functions& gl, unsigned unit) const;
   [[nodiscard]] TextureSize size() const { return size_; }
 

@@ -1,0 +1,44 @@
+// Rows of the source texture between the sun nodes: cubic Hermite with limited slopes
+// (src/sky/bruneton/sun_rows.h). Item [height][zenith][interval][azimuth].
+layout(local_size_x = 32) in;
+
+layout(std430, binding = 0) readonly buffer SourceBlock { vec4 source[]; };  // [group][height][zenith][sun][azimuth]
+layout(binding = 0, rgba32f) uniform writeonly image3D table;
+layout(std140, binding = 3) uniform GroupBlock { int group; };
+
+const int INTERVALS = SUNS - 1;
+const int ITEMS = HEIGHTS * TABLE_ZENITHS * INTERVALS * TABLE_AZIMUTHS;
+
+// Mean of both secants, at most 3 times the smaller, 0 at an extremum.
+vec4 limited_slope(vec4 before, vec4 after) {
+  vec4 least = min(abs(before), abs(after));
+  vec4 slope = sign(before) * min(0.5 * abs(before + after), 3.0 * least);
+  return mix(slope, vec4(0.0), lessThanEqual(before * after, vec4(0.0)));
+}
+
+void main() {
+  int item = int(gl_GlobalInvocationID.x);
+  if (item >= ITEMS) return;
+  int azimuth = item % TABLE_AZIMUTHS;
+  int interval = (item / TABLE_AZIMUTHS) % INTERVALS;
+  int slab = item / (TABLE_AZIMUTHS * INTERVALS);
+  int base = (group * HEIGHTS * TABLE_ZENITHS + slab) * SUNS * TABLE_AZIMUTHS + azimuth;
+  vec4 here = source[base + interval * TABLE_AZIMUTHS];
+  vec4 next = source[base + (interval + 1) * TABLE_AZIMUTHS];
+  vec4 secant = next - here;
+  vec4 slope_here = secant;
+  vec4 slope_next = DARK_END == 1 ? vec4(0.0) : secant;
+  if (interval > 0)
+    slope_here = limited_slope(here - source[base + (interval - 1) * TABLE_AZIMUTHS], secant);
+  if (interval + 2 < SUNS)
+    slope_next = limited_slope(secant, source[base + (interval + 2) * TABLE_AZIMUTHS] - next);
+  for (int k = 0; k < ROWS_PER_INTERVAL; ++k) {
+    float t = float(k) / float(ROWS_PER_INTERVAL);
+    float u = 1.0 - t;
+    vec4 value = u * u * (1.0 + 2.0 * t) * here + t * t * (3.0 - 2.0 * t) * next +
+                 t * u * u * slope_here - t * t * u * slope_next;
+    imageStore(table, ivec3(azimuth, interval * ROWS_PER_INTERVAL + k, slab), value);
+  }
+  if (interval == INTERVALS - 1)
+    imageStore(table, ivec3(azimuth, INTERVALS * ROWS_PER_INTERVAL, slab), next);
+}
