@@ -1,6 +1,7 @@
 #pragma once
 // Other measures of haze as the turbidity of the sky models. All at 550 nm.
 #include "core/quantity.h"
+#include "sky/atmosphere/atmosphere.h"
 
 namespace skylapse::config {
 
@@ -22,5 +23,15 @@ double turbidity_from_visibility(Length visibility);
 
 /// The inverse.
 Length visibility_from_turbidity(double turbidity);
+
+/// Vertical aerosol optical depth that leaves the meteorological range `visibility` (> 0) at the
+/// ground of `air`, with its scale height, pressure and top; its own depth is not looked at.
+/// Source   Koschmieder as above; molecules take 1.15e-5 per metre times surface pressure over
+///          1013.25 hPa.
+/// Returns  less than 0 where the range is beyond that of air without aerosol.
+double aerosol_depth_from_visibility(Length visibility, const sky::atmosphere::AirDescription& air);
+
+/// The inverse for air without aerosol: the greatest range there is; infinite without air.
+Length greatest_visibility(const sky::atmosphere::AirDescription& air);
 
 }  // namespace skylapse::config

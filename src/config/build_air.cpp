@@ -1,49 +1,14 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "config/air_conversion.h"
 #include "config/build_job.h"
-#include "config/words.h"
+#include "config/haze.h"
+#include "sky/atmosphere/input_spectra.h"
 
 namespace skylapse::config {
 namespace {
 
-constexpr double kLowestTurbidity = 1, kHighestTurbidity = 10;  // as in the table of keys
-
-/// Reports a converted turbidity outside the range; `allowed` is that range in the user's terms.
-bool within_models(double turbidity, const Section& air, std::string_view key, const Value& value,
-                   const std::string& allowed, const ReadContext& context) {
-  if (turbidity >= kLowestTurbidity && turbidity <= kHighestTurbidity) return true;
-  context.errors.add(
-      value.place,
-      fmt::format("{} is turbidity {:.3g}, beyond the sky models", air.path_of(key), turbidity),
-      fmt::format("allowed: {}", allowed));
-  return false;
-}
-
-void add_turbidities(const Section& air, std::vector<Spanned<double>>& list,
-                     const ReadContext& context) {
-  const auto add = [&](double turbidity, const Value& value) {
-    list.push_back({turbidity, context.sources.span(value.place)});
-  };
-  for (const Value& value : air.values("turbidity")) add(std::get<double>(value.data), value);
-  for (const Value& value : air.values("visibility")) {
-    const double turbidity = turbidity_from_visibility(std::get<double>(value.data) * metre);
-    const std::string allowed =
-        fmt::format("{:.2f} km to {:.0f} km", visibility_from_turbidity(10).in(km) + 0.005,
-                    visibility_from_turbidity(1).in(km)-0.5);
-    if (within_models(turbidity, air, "visibility", value, allowed, context)) add(turbidity, value);
-  }
-  for (const Value& value : air.values("aerosol_optical_depth")) {
-    const double turbidity = turbidity_from_aerosol_depth(std::get<double>(value.data));
-    const std::string allowed =
-        fmt::format("{:.4f} to {:.3f}", aerosol_depth_from_turbidity(1) + 5e-5,
-                    aerosol_depth_from_turbidity(10) - 5e-4);
-    if (within_models(turbidity, air, "aerosol_optical_depth", value, allowed, context))
-      add(turbidity, value);
-  }
-}
+using sky::atmosphere::AirDescription;
 
 template <class T>
 void refuse_twice(const Section& air, std::string_view key, const std::vector<Spanned<T>>& list,
@@ -57,19 +22,102 @@ void refuse_twice(const Section& air, std::string_view key, const std::vector<Sp
       }
 }
 
-}  // namespace
+/// Everything but haze and ground.
+AirDescription description_of(const Section& air) {
+  AirDescription d;
+  const auto set = [](const Section& section, std::string_view key, auto& value, auto unit) {
+    if (const auto number = section.get<double>(key)) value = *number * unit;
+  };
+  set(air, "ozone", d.ozone_du, 1.0);
+  set(air, "surface_pressure", d.surface_pressure, hPa);
+  set(air, "planet_radius", d.planet_radius, metre);
+  set(air, "top_height", d.top_height, metre);
+  if (const auto aerosol = only_section(air, "aerosol")) {
+    set(*aerosol, "angstrom_exponent", d.angstrom_exponent, 1.0);
+    set(*aerosol, "single_scattering_albedo", d.aerosol_single_scattering_albedo, 1.0);
+    set(*aerosol, "g", d.aerosol_g, 1.0);
+    set(*aerosol, "scale_height", d.aerosol_scale_height, metre);
+  }
+  if (const auto layer = only_section(air, "stratosphere")) {
+    set(*layer, "optical_depth", d.stratospheric_optical_depth, 1.0);
+    set(*layer, "bottom", d.stratospheric_bottom, metre);
+    set(*layer, "top", d.stratospheric_top, metre);
+  }
+  return d;
+}
 
-Air build_air(const Section& root, const ReadContext& context) {
-  Air air;
-  const auto found = only_section(root, "air");
-  if (!found) return air;
-  const Section& section = *found;
+/// Keys whose values, taken together, are no atmosphere: reported where the cure is.
+void check_layers(const Section& air, const AirDescription& description,
+                  const ReadContext& context) {
+  const auto atmosphere = sky::atmosphere::atmosphere_of(description);
+  if (atmosphere) return;
+  const auto layer = only_section(air, "stratosphere");
+  const bool inverted = description.stratospheric_top <= description.stratospheric_bottom;
+  const Place place = layer && inverted       ? layer->place_of("top")
+                      : air.has("top_height") ? air.place_of("top_height")
+                      : layer                 ? layer->place_of("top")
+                                              : air.place;
+  context.errors.add(place, fmt::format("air: {}", atmosphere.error().message),
+                     atmosphere.error().hint);
+}
+
+struct AtmosphereKey {
+  std::string_view key;
+  bool in_use;
+};
+
+/// Keys of `air` whose values Hosek-Wilkie knows nothing of.
+std::vector<AtmosphereKey> atmosphere_keys(const Section& air, const AirDescription& d) {
+  const AirDescription plain;
+  return {
+      {"preset", air.has("preset")},
+      {"aerosol",
+       d.angstrom_exponent != plain.angstrom_exponent ||
+           d.aerosol_single_scattering_albedo != plain.aerosol_single_scattering_albedo ||
+           d.aerosol_g != plain.aerosol_g || d.aerosol_scale_height != plain.aerosol_scale_height},
+      {"stratosphere", d.stratospheric_optical_depth > 0},
+      {"ozone", d.ozone_du != plain.ozone_du},
+      {"surface_pressure", d.surface_pressure != plain.surface_pressure},
+      {"planet_radius", d.planet_radius != plain.planet_radius},
+      {"top_height", d.top_height != plain.top_height},
+      {"keyframes", air.has("keyframes")},
+  };
+}
+
+/// Sets `needs_atmosphere`, or reports the keys that the demanded model makes nothing of.
+void note_atmosphere_keys(const Section& section, SkyModel model, Air& air,
+                          const ReadContext& context) {
+  for (const AtmosphereKey& key : atmosphere_keys(section, air.description)) {
+    if (!key.in_use) continue;
+    // What came with a preset is the preset's doing.
+    const Place place = section.field(key.key)->key_place;
+    if (is_hosek_wilkie(model) && (key.key == "preset" || !section.has("preset")))
+      context.errors.add(
+          place, fmt::format("{} means nothing to the Hosek-Wilkie sky", section.path_of(key.key)),
+          "use sky.model bruneton, single-scattering or auto");
+    if (!air.needs_atmosphere)
+      air.needs_atmosphere =
+          Spanned<std::string>{section.path_of(key.key), context.sources.span(place)};
+  }
+}
+
+void read_haze(const Section& section, const HazeReader& haze, Air& air,
+               const ReadContext& context) {
   std::vector<Spanned<double>> turbidities;
-  add_turbidities(section, turbidities, context);
+  for (const std::string_view key : kHazeKeys)
+    for (const Value& value : section.values(key)) {
+      const auto turbidity = haze.turbidity(section, key, value);
+      if (!turbidity) continue;
+      turbidities.push_back({*turbidity, context.sources.span(value.place)});
+      if (!within_hosek_wilkie(*turbidity) && !air.needs_atmosphere)
+        air.needs_atmosphere = Spanned<std::string>{section.path_of(key), turbidities.back().span};
+    }
   if (!turbidities.empty()) air.turbidity = turbidities;
-  for (const std::string_view key : {"turbidity", "visibility", "aerosol_optical_depth"})
+  for (const std::string_view key : kHazeKeys)
     refuse_twice(section, key, turbidities, std::equal_to<double>{}, context);
+}
 
+void read_grounds(const Section& section, Air& air, const ReadContext& context) {
   std::vector<Spanned<Albedo>> albedos;
   for (const Value& value : section.values("ground_albedo"))
     albedos.push_back({std::get<Albedo>(value.data), context.sources.span(value.place)});
@@ -77,68 +125,42 @@ Air build_air(const Section& root, const ReadContext& context) {
       section, "ground_albedo", albedos,
       [](const Albedo& a, const Albedo& b) { return a.name == b.name; }, context);
   if (!albedos.empty()) air.ground_albedo = albedos;
+}
 
+void read_refraction(const Section& section, Air& air) {
   astro::RefractionConditions& refraction = air.refraction;
   refraction.enabled = section.get<bool>("refraction").value_or(refraction.enabled);
   if (const auto pressure = section.get<double>("pressure")) refraction.pressure = *pressure * hPa;
+  air.observer_pressure_given = section.has("pressure");
   if (const auto warmth = section.get<double>("temperature"))
     refraction.temperature = *warmth * degC;
+}
+
+}  // namespace
+
+Air build_air(const Section& root, const std::vector<Site>& sites, const ReadContext& context) {
+  Air air;
+  const auto section = only_section(root, "air");
+  if (section) {
+    const SkyModel model = sky_model(root);
+    air.description = description_of(*section);
+    check_layers(*section, air.description, context);
+    note_atmosphere_keys(*section, model, air, context);
+    read_haze(*section, {air.description, model, context}, air, context);
+    read_grounds(*section, air, context);
+    read_refraction(*section, air);
+  }
+  air.description.aerosol_optical_depth =
+      std::max(0.0, aerosol_depth_from_turbidity(air.turbidity[0].value));
+  air.description.ground_albedo = ground_spectrum(air.ground_albedo[0].value);
+  if (section) air.keyframes = build_keyframes(root, *section, air, sites, context);
   return air;
 }
 
-Sky build_sky(const Section& root) {
-  Sky sky;
-  const auto section = only_section(root, "sky");
-  if (!section) return sky;
-  const auto set = [&](std::string_view key, const auto& words, auto& value) {
-    if (const auto word = section->get<std::string>(key)) value = *value_of(words, *word);
-  };
-  set("model", kSkyModelWords, sky.model);
-  set("fit", kFitWords, sky.fit);
-  set("solar_flux", kSolarFluxWords, sky.solar_flux);
-  set("sun_algorithm", kSunAlgorithmWords, sky.sun_algorithm);
-  sky.sun_disc = section->get<bool>("sun_disc").value_or(sky.sun_disc);
-  return sky;
-}
-
-color::ExposureSettings build_exposure(const Section& root, const ReadContext& context) {
-  color::ExposureSettings exposure;
-  const auto section = only_section(root, "exposure");
-  if (!section) return exposure;
-  if (const auto mode = section->get<std::string>("mode"))
-    exposure.mode = *value_of(kExposureModeWords, *mode);
-  else if (section->has("ev") && !section->has("mode"))
-    exposure.mode = color::ExposureMode::fixed;
-  exposure.ev = section->get<double>("ev").value_or(exposure.ev);
-  exposure.compensation = section->get<double>("compensation").value_or(exposure.compensation);
-  exposure.rate_limit = section->get<double>("rate_limit").value_or(exposure.rate_limit);
-  const auto only_in = [&](std::string_view key, color::ExposureMode mode, std::string_view word) {
-    const bool mode_is_bad = section->has("mode") && !section->get<std::string>("mode");
-    if (section->has(key) && exposure.mode != mode && !mode_is_bad)
-      context.errors.add(section->field(key)->key_place,
-                         fmt::format("{} has no effect here", section->path_of(key)),
-                         fmt::format("it belongs to mode {}", word));
-  };
-  only_in("ev", color::ExposureMode::fixed, "fixed");
-  only_in("rate_limit", color::ExposureMode::metered, "metered");
-  return exposure;
-}
-
-ColorConfig build_color(const Section& root, const ReadContext& context) {
-  ColorConfig color;
-  const auto section = only_section(root, "color");
-  if (!section) return color;
-  color.space = section->get<std::string>("space").value_or(color.space);
-  if (const auto file = section->get<std::string>("ocio")) {
-    const Place place = section->place_of("ocio");
-    color.ocio = Spanned<std::string>{*file, context.sources.span(place)};
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(*file, ignored))
-      context.errors.add(place,
-                         fmt::format("{}: there is no file {}", section->path_of("ocio"), *file),
-                         "names count from the folder of the config", ErrorCode::missing_input);
-  }
-  return color;
+sky::atmosphere::Spectrum ground_spectrum(const Albedo& albedo) {
+  if (albedo.spectral)
+    if (auto spectrum = sky::atmosphere::ground_albedo_spectrum(albedo.name)) return *spectrum;
+  return sky::atmosphere::constant_spectrum(albedo.value);
 }
 
 }  // namespace skylapse::config

@@ -10,8 +10,11 @@ std::vector<Site> build_sites(const Section& root, const ReadContext& context);
 TimePlan build_time(const Section& root, const std::vector<Site>& sites,
                     const ReadContext& context);
 
-Air build_air(const Section& root, const ReadContext& context);
-Sky build_sky(const Section& root);
+/// The model that the config asks for.
+SkyModel sky_model(const Section& root);
+/// `sites` decide whether keyframes without an offset have a zone.
+Air build_air(const Section& root, const std::vector<Site>& sites, const ReadContext& context);
+Sky build_sky(const Section& root, const ReadContext& context);
 std::vector<CameraConfig> build_cameras(const Section& root, const ReadContext& context);
 color::ExposureSettings build_exposure(const Section& root, const ReadContext& context);
 ColorConfig build_color(const Section& root, const ReadContext& context);

@@ -75,6 +75,9 @@ struct Albedo {
   bool spectral = false;
 };
 
+/// Reflectance of a ground over the wavelength.
+sky::atmosphere::Spectrum ground_spectrum(const Albedo& albedo);
+
 /// What of the air may change during a job.
 struct AirState {
   double aerosol_optical_depth = 0;  // vertical, 550 nm
@@ -91,15 +94,17 @@ struct AirKeyframe {
 /// One dimension of the job per list: the frames of all combinations are rendered.
 struct Air {
   std::vector<Spanned<double>> turbidity{
-      {2.5, {}}};  // 1..10, from turbidity, visibility or aerosol depth
+      {2.5, {}}};  // from turbidity, visibility or aerosol depth; Hosek-Wilkie takes 1..10
   std::vector<Spanned<Albedo>> ground_albedo{{{"0.2", 0.2, false}, {}}};
   astro::RefractionConditions refraction;
+  bool observer_pressure_given = false;  // the refraction's pressure was written, not the default
   /// Everything else about the air; its aerosol depth is that of `turbidity`, its ground that of
   /// `ground_albedo`. For the models that compute the atmosphere.
   sky::atmosphere::AirDescription description;
   std::vector<AirKeyframe> keyframes;  // in the order written; sorted by the plan
-  /// The first key that only a model of the atmosphere understands (ozone, a profile, keyframes);
-  /// empty if every value is one that Hosek-Wilkie knows too.
+  /// The first key with a value that only a model of the atmosphere understands (a preset, ozone
+  /// that is not the default, haze beyond turbidity 10, keyframes), as "air.ozone"; empty if
+  /// Hosek-Wilkie will do. Never set where the config demands Hosek-Wilkie: that is an error.
   std::optional<Spanned<std::string>> needs_atmosphere;
 };
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "config/air_presets.h"
 #include "config/build_job.h"
 #include "config/override.h"
 #include "config/yaml_reader.h"
@@ -21,8 +22,8 @@ JobConfig build_job(const Section& root, const std::string& file, const ReadCont
   job.allow_outside_paths = root.get<bool>("allow_outside_paths").value_or(false);
   job.sites = build_sites(root, context);
   job.time = build_time(root, job.sites, context);
-  job.air = build_air(root, context);
-  job.sky = build_sky(root);
+  job.air = build_air(root, job.sites, context);
+  job.sky = build_sky(root, context);
   job.cameras = build_cameras(root, context);
   job.exposure = build_exposure(root, context);
   job.color = build_color(root, context);
@@ -60,6 +61,7 @@ Result<JobConfig, Diagnostics> parse_job(const std::string& text, const std::str
   auto root = read_yaml(sources, file, errors);
   if (!root || !is_section(*root, errors)) return errors.diagnostics(sources);
   for (const Override& change : overrides) apply_override(*root, change, sources, errors);
+  apply_preset(*root, sources, errors);
   ReadContext context{sources, errors, fs::path(name).parent_path().string()};
   const Section section = read_section(*root, job_spec(), "", {file, 1, 1, 0}, context);
   JobConfig job = build_job(section, name, context);

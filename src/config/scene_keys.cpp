@@ -1,6 +1,5 @@
-// Keys of place, time, air and sky. The rows are explained in key_spec.h.
+// Keys of place and time. The rows are explained in key_spec.h.
 #include "config/key_sections.h"
-#include "config/words.h"
 
 namespace skylapse::config {
 namespace {
@@ -70,10 +69,11 @@ const SectionSpec& site_spec() {
            .kind = K::quantity,
            .dimension = D::length,
            .min = "-500 m",
-           .max = "100 km",
+           .max = "400000 km",
            .default_text = "0 m",
            .example = "235 m",
-           .doc = "Height above the WGS84 ellipsoid."},
+           .doc =
+               "Height above the WGS84 ellipsoid, from the ground to beyond the moon's distance."},
           {.name = "zone",
            .kind = K::zone,
            .example = "Europe/Prague",
@@ -151,107 +151,6 @@ const SectionSpec& time_spec() {
                       "arcsec."},
           },
       .alternatives = {{{"date", "dates"}}, {{"step", "frames", "every", "at"}, true}}};
-  return spec;
-}
-
-const SectionSpec& air_spec() {
-  static const SectionSpec spec{
-      .name = "air",
-      .doc = "The air and the ground. Lists multiply the job.",
-      .keys =
-          {
-              {.name = "turbidity",
-               .kind = K::number,
-               .min = "1",
-               .max = "10",
-               .list = true,
-               .default_text = "2.5",
-               .example = "3",
-               .doc = "Preetham's turbidity: 2 very clear, 3 clear, 6 hazy, 10 dense haze."},
-              {.name = "visibility",
-               .kind = K::quantity,
-               .dimension = D::length,
-               .min = "1 m",
-               .max = "1000 km",
-               .list = true,
-               .example = "40 km",
-               .doc = "Meteorological range at 550 nm (2 % contrast), converted to turbidity."},
-              {.name = "aerosol_optical_depth",
-               .kind = K::number,
-               .min = "0",
-               .max = "10",
-               .list = true,
-               .example = "0.1",
-               .doc = "Optical depth of the aerosol at 550 nm, vertical, converted to turbidity."},
-              {.name = "ground_albedo",
-               .kind = K::albedo,
-               .min = "0",
-               .max = "1",
-               .list = true,
-               .default_text = "0.2",
-               .example = "grass",
-               .doc = "Reflectance of the ground: a number, or the name of a measured spectrum."},
-              {.name = "refraction",
-               .kind = K::on_off,
-               .default_text = "on",
-               .example = "off",
-               .doc = "Whether the air lifts sun and moon."},
-              {.name = "pressure",
-               .kind = K::quantity,
-               .dimension = D::pressure,
-               .min = "0 hPa",
-               .max = "1100 hPa",
-               .default_text = "1010 hPa",
-               .example = "1013.25 hPa",
-               .doc = "Air pressure at the observer, for refraction."},
-              {.name = "temperature",
-               .kind = K::quantity,
-               .dimension = D::temperature,
-               .min = "-100 degC",
-               .max = "60 degC",
-               .default_text = "10 degC",
-               .example = "15 degC",
-               .doc = "Air temperature at the observer, for refraction."},
-          },
-      .alternatives = {{{"turbidity", "visibility", "aerosol_optical_depth"}}}};
-  return spec;
-}
-
-const SectionSpec& sky_spec() {
-  static const SectionSpec spec{
-      .name = "sky",
-      .doc = "How the sky is computed.",
-      .keys = {
-          {.name = "model",
-           .kind = K::word,
-           .words = words_of(kSkyModelWords),
-           .default_text = "auto",
-           .example = "hosek-wilkie",
-           .doc = "Sky model. `auto` takes the cheapest that fits the scene and says why."},
-          {.name = "fit",
-           .kind = K::word,
-           .words = words_of(kFitWords),
-           .default_text = "spectral",
-           .example = "xyz",
-           .doc = "Which of the three published Hosek-Wilkie fits."},
-          {.name = "solar_flux",
-           .kind = K::word,
-           .words = words_of(kSolarFluxWords),
-           .default_text = "reference",
-           .example = "conserving",
-           .doc = "Sun disc as published, or with the full flux of direct sunlight."},
-          {.name = "sun_disc",
-           .kind = K::on_off,
-           .default_text = "on",
-           .example = "off",
-           .doc = "Whether the disc itself is drawn."},
-          {.name = "sun_algorithm",
-           .kind = K::word,
-           .words = words_of(kSunAlgorithmWords),
-           .default_text = "erfa",
-           .example = "sg2",
-           .doc = "Formulas for the sun's position; all but `erfa` are there to be compared."},
-      }};
   return spec;
 }
 

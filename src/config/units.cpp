@@ -86,7 +86,11 @@ constexpr UnitName kExposureRateUnits[] = {
 
 constexpr UnitName kFrameRateUnits[] = {{"fps", 1}, {"Hz", 1, 0, false}};
 
-constexpr std::array<DimensionInfo, 12> kDimensions{{
+constexpr UnitName kOzoneUnits[] = {{"DU", 1}};
+
+constexpr UnitName kWavelengthUnits[] = {{"nm", 1}, {"um", 1000}, {"µm", 1000, 0, false}};
+
+constexpr std::array<DimensionInfo, 14> kDimensions{{
     {"a number", {}},
     {"an angle", kAngleUnits, {}, true},
     {"a latitude", kAngleUnits, "deg", true},
@@ -99,6 +103,8 @@ constexpr std::array<DimensionInfo, 12> kDimensions{{
     {"an exposure value", kExposureUnits, "EV"},
     {"a rate of exposure", kExposureRateUnits, "stops/min"},
     {"a frame rate", kFrameRateUnits, "fps"},
+    {"a column of ozone", kOzoneUnits},
+    {"a wavelength", kWavelengthUnits},
 }};
 
 }  // namespace

@@ -20,6 +20,8 @@ enum class Dimension {
   exposure_value,  // EV at ISO 100, or stops; a plain number will do
   exposure_rate,   // stops per minute; a plain number will do
   frame_rate,      // frames per second; a plain number will do
+  ozone,           // Dobson units
+  wavelength,
 };
 
 struct UnitName {
@@ -30,7 +32,7 @@ struct UnitName {
 };
 
 /// What is known about a dimension. Base units are those of core/quantity.h (rad, m, s, hPa,
-/// degree Celsius); days, EV, EV per minute and frames per second for the rest.
+/// degree Celsius, nm); days, EV, EV per minute, frames per second and Dobson units for the rest.
 struct DimensionInfo {
   std::string_view name;            // "an angle"
   std::span<const UnitName> units;  // the usual one first

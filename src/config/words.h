@@ -13,8 +13,18 @@ namespace skylapse::config {
 template <class T, size_t N>
 using Words = std::array<std::pair<std::string_view, T>, N>;
 
-inline constexpr Words<SkyModel, 2> kSkyModelWords{
-    {{"auto", SkyModel::automatic}, {"hosek-wilkie", SkyModel::hosek_wilkie}}};
+inline constexpr Words<SkyModel, 5> kSkyModelWords{
+    {{"auto", SkyModel::automatic},
+     {"hosek-wilkie", SkyModel::hosek_wilkie},
+     {"bruneton", SkyModel::bruneton},
+     {"single-scattering", SkyModel::single_scattering},
+     {"hosek-wilkie-gl", SkyModel::hosek_wilkie_gl}}};
+
+inline constexpr Words<sky::bruneton::Level, 4> kLevelWords{
+    {{"draft", sky::bruneton::Level::draft},
+     {"low", sky::bruneton::Level::low},
+     {"standard", sky::bruneton::Level::standard},
+     {"fine", sky::bruneton::Level::fine}}};
 
 inline constexpr Words<sky::hosek_wilkie::Fit, 3> kFitWords{
     {{"spectral", sky::hosek_wilkie::Fit::spectral},

@@ -40,8 +40,9 @@ struct TableMedia {
 };
 
 /// Air that changes passes between nodes that are fixed by the job: neighbours differ by at most a
-/// factor of 1.25 in aerosol depth or by 25 DU of ozone, so that a few tables serve all frames.
-/// Air that does not change: a is the frame's medium, b equals it, weight is 0.
+/// factor of 1.25 in aerosol depth (plus 0.02, below which haze hardly shows) or by 25 DU of ozone,
+/// so that a few tables serve all frames, and the same ones the way there and back. Air that does
+/// not change: a is the frame's medium, b equals it, weight is 0.
 Result<TableMedia> tables_of_frame(const config::JobConfig& job, const AirTimeline& timeline,
                                    const Frame& frame);
 

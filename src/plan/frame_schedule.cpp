@@ -199,6 +199,8 @@ std::vector<JobDay> days_of(const config::TimePlan& plan) {
   return days;
 }
 
+}  // namespace
+
 Result<astro::Zone> zone_of(const config::JobConfig& job, const config::Site& site) {
   const auto& name = site.zone ? site.zone : job.time.zone;
   if (!name) return astro::Zone::find("UTC");  // config made sure that no naive time needs it
@@ -209,7 +211,27 @@ Result<astro::Zone> zone_of(const config::JobConfig& job, const config::Site& si
   return error;
 }
 
-}  // namespace
+std::vector<year_month_day> days_of_job(const config::JobConfig& job) {
+  std::vector<std::chrono::sys_days> days;
+  for (const JobDay& day : days_of(job.time)) days.emplace_back(day.date);
+  if (job.time.dates.empty()) {
+    const auto add = [&](const config::TimeExpression& time) {
+      if (time.date) days.emplace_back(*time.date);
+    };
+    if (job.time.from) add(*job.time.from);
+    if (job.time.to) add(*job.time.to);
+    if (const auto* list = std::get_if<config::ExplicitTimes>(&job.time.sampling))
+      for (const auto& time : list->times) add(time);
+    std::sort(days.begin(), days.end());
+    const auto span = days.back() - days.front();  // frames may fall on any day between
+    const auto first = days.front();
+    days.clear();
+    for (auto day = first; day <= first + span; day += std::chrono::days(1)) days.push_back(day);
+  }
+  std::sort(days.begin(), days.end());
+  days.erase(std::unique(days.begin(), days.end()), days.end());
+  return {days.begin(), days.end()};
+}
 
 Result<Instant> resolve_time(const config::TimeExpression& time, const year_month_day& day,
                              const config::Site& site, const astro::Zone& zone) {

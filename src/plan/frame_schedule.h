@@ -27,6 +27,13 @@ struct Schedule {
 /// repeats, an event that does not happen on that day, an interval that ends before it begins.
 Result<Schedule, Diagnostics> make_schedule(const config::JobConfig& job);
 
+/// The zone of a site: its own, else the job's, else UTC (no time of the job needs one then).
+Result<astro::Zone> zone_of(const config::JobConfig& job, const config::Site& site);
+
+/// The days of a job in order, each once. Where times carry days of their own: all from the first
+/// to the last of them.
+std::vector<std::chrono::year_month_day> days_of_job(const config::JobConfig& job);
+
 /// One time expression at one site; `day` is used unless the expression carries a date.
 Result<astro::Instant> resolve_time(const config::TimeExpression& time,
                                     const std::chrono::year_month_day& day,
