@@ -29,11 +29,23 @@ json air_json(const config::JobConfig& job, const plan::Frame& frame) {
           {"temperature", refraction.temperature.in(degC)}};
 }
 
-json sky_json(const config::Sky& sky) {
-  return {{"fit", int(sky.fit)},
-          {"flux", int(sky.solar_flux)},
-          {"disc", sky.sun_disc},
-          {"sun_algorithm", name_of(sky.sun_algorithm)}};
+/// What the model of the plan depends on, and no other.
+json sky_json(const plan::Plan& plan, const plan::Frame& frame) {
+  const config::Sky& sky = plan.job.sky;
+  json all{{"model", name_of(plan.model)},
+           {"disc", sky.sun_disc},
+           {"sun_algorithm", name_of(sky.sun_algorithm)}};
+  if (plan::is_hosek_wilkie(plan.model)) {
+    all["fit"] = int(sky.fit);
+    all["flux"] = int(sky.solar_flux);
+    return all;
+  }
+  all["level"] = sky::bruneton::name_of(sky.level);
+  all["wavelengths"] = sky.wavelengths;
+  // A medium that is refused has no text, and no picture either.
+  const auto medium = plan::medium_of_frame(plan.job, plan.air, frame);
+  all["medium"] = medium ? canonical_text(*medium) : "";
+  return all;
 }
 
 json camera_json(const config::CameraConfig& config) {
@@ -57,7 +69,7 @@ json frame_json(const plan::Plan& plan, const plan::Frame& frame) {
           {"utc_offset", frame.local.utc_offset.count()},
           {"dut1", plan.job.time.dut1.in(second)},
           {"air", air_json(plan.job, frame)},
-          {"sky", sky_json(plan.job.sky)},
+          {"sky", sky_json(plan, frame)},
           {"camera", camera_json(plan.job.cameras[frame.camera])},
           {"space", plan.job.color.space},
           {"ev", frame.ev}};

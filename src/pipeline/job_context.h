@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "output/image_writer.h"
+#include "pipeline/atmosphere_service.h"
 #include "pipeline/frame_files.h"
 #include "pipeline/ledger.h"
 #include "pipeline/run_job.h"
@@ -18,6 +19,7 @@ struct JobContext {
   const output::ImageIo& io;
   const Displays& displays;
   Ledger& ledger;
+  AtmosphereService& atmospheres;
   std::string color_config;  // hash
 
   [[nodiscard]] bool stopped() const {

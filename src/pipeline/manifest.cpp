@@ -141,7 +141,7 @@ ordered_json frame_json(const JobContext& job, const plan::Frame& frame, const F
   ordered_json moon = direction_json(frame.sky.moon_apparent, frame.sky.moon_true);
   moon["illuminated_fraction"] = frame.sky.moon_illuminated_fraction;
   auto effects = ordered_json::array();
-  for (const auto& decision : plan::decide_effects(config, frame))
+  for (const auto& decision : plan::decide_effects(job.plan, frame))
     if (decision.on) effects.push_back(name_of(decision.effect));
   return {{"frame", frame.index},
           {"site", config.sites[frame.site].name},
@@ -151,7 +151,7 @@ ordered_json frame_json(const JobContext& job, const plan::Frame& frame, const F
           {"sun", sun},
           {"moon", moon},
           {"exposure", exposure_json(frame.ev)},
-          {"model", "hosek-wilkie"},
+          {"model", name_of(job.plan.model)},
           {"extrapolated", frame.sun.extrapolated},
           {"turbidity", config.air.turbidity[frame.turbidity].value},
           {"ground_albedo", config.air.ground_albedo[frame.albedo].value.name},
@@ -159,6 +159,45 @@ ordered_json frame_json(const JobContext& job, const plan::Frame& frame, const F
           {"light", found.light},
           {"complete", found.complete},
           {"files", found.files}};
+}
+
+/// What computed the atmosphere. A run that kept all its frames has not asked for it: then what the
+/// run before wrote stands.
+ordered_json computed_by_json(const JobContext& job) {
+  const auto record = job.atmospheres.record();
+  if (!record) {
+    std::ifstream file(job.options.output / "manifest.json");
+    const auto before = ordered_json::parse(file, nullptr, false);
+    const ordered_json::json_pointer place("/atmosphere/computed_by");
+    if (before.is_discarded() || !before.is_object() || !before.contains(place)) return nullptr;
+    return before.at(place);
+  }
+  auto attempts = ordered_json::array();
+  for (const gpu::Attempt& attempt : record->context.attempts)
+    if (!attempt.reason.empty())
+      attempts.push_back({{"backend", attempt.what}, {"reason", attempt.reason}});
+  auto tables = ordered_json::array();
+  for (const AtmosphereRecord::Tables& t : record->tables)
+    tables.push_back({{"id", t.id},
+                      {"cached", t.cached},
+                      {"seconds", t.seconds},
+                      {"orders", t.orders},
+                      {"bytes", t.bytes}});
+  return {{"backend", record->context.backend},
+          {"vendor", record->context.vendor},
+          {"renderer", record->context.renderer},
+          {"version", record->context.version},
+          {"passed_over", attempts},
+          {"tables", tables}};
+}
+
+/// Nothing for a model that computes none.
+ordered_json atmosphere_json(const JobContext& job) {
+  if (plan::is_hosek_wilkie(job.plan.model)) return nullptr;
+  const config::Sky& sky = job.plan.job.sky;
+  return {{"level", sky::bruneton::name_of(sky.level)},
+          {"wavelengths", sky.wavelengths},
+          {"computed_by", computed_by_json(job)}};
 }
 
 /// Everything but the frames.
@@ -178,7 +217,9 @@ ordered_json head_json(const JobContext& job) {
           {"cameras", cameras_json(config)},
           {"outputs", outputs_json(config)},
           {"color", color_json(config)},
+          {"model", name_of(job.plan.model)},
           {"model_reason", job.plan.model_reason},
+          {"atmosphere", atmosphere_json(job)},
           {"notes", job.plan.notes},
           {"movies", movies},
           {"frames_total", job.plan.frames.size()}};

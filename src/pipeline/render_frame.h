@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "image/frame_buffer.h"
+#include "pipeline/atmosphere_service.h"
 #include "pipeline/stage_times.h"
 #include "plan/plan.h"
 
@@ -16,9 +17,11 @@ struct RenderedFrame {
   glm::dvec3 sun_normal_irradiance_xyz{0};
 };
 
-/// Renders one frame of a plan. `keep_without_disc` also returns the sky as it is before the disc
-/// is added. Deterministic: the same plan and frame give the same pixels on any number of threads.
+/// Renders one frame of a plan. `atmospheres` serves the models that compute the air; Hosek-Wilkie
+/// leaves it alone. `keep_without_disc` also returns the sky as it is before the disc is added.
+/// Deterministic: the same plan, frame and driver give the same pixels on any number of threads.
 Result<RenderedFrame> render_frame(const plan::Plan& plan, const plan::Frame& frame,
-                                   bool keep_without_disc, StageTimes& times);
+                                   AtmosphereService& atmospheres, bool keep_without_disc,
+                                   StageTimes& times);
 
 }  // namespace skylapse::pipeline

@@ -86,8 +86,8 @@ void run_task(const JobContext& job, Task& task) {
   find_missing(job, task);
   if (task.missing.empty()) return;
   const plan::Frame& frame = job.frame(task.number);
-  const auto rendered =
-      render_frame(job.plan, frame, wants_sky_without_disc(job.plan.job), task.times);
+  const auto rendered = render_frame(job.plan, frame, job.atmospheres,
+                                     wants_sky_without_disc(job.plan.job), task.times);
   if (!rendered) {
     task.error = rendered.error();
     return;
@@ -201,8 +201,15 @@ int frames_in_flight(const plan::Plan& plan, int threads) {
   return std::clamp(int(kBudgetBytes / (largest * kBytesPerPixel)), 1, threads + 1);
 }
 
-Result<RunSummary> run_job(const plan::Plan& plan, const RunOptions& options) {
+Result<RunSummary> run_job(const plan::Plan& plan, const RunOptions& as_asked) {
   const auto start = Clock::now();
+  RunOptions options = as_asked;
+  std::mutex one_at_a_time;  // frames, tables and movies report from threads of their own
+  if (as_asked.on_progress)
+    options.on_progress = [&](const Progress& progress) {
+      const std::lock_guard lock(one_at_a_time);
+      as_asked.on_progress(progress);
+    };
   const ThreadLimit limit(options.jobs);
   const auto io = output::open_image_io();
   if (!io) return io.error();
@@ -214,7 +221,11 @@ Result<RunSummary> run_job(const plan::Plan& plan, const RunOptions& options) {
   if (!movies_possible) return movies_possible.error();
   auto ledger = Ledger::open(options.output, writer_name(options.shard));
   if (!ledger) return ledger.error();
-  const JobContext job{plan, options, **io, *displays, *ledger, *color_config};
+  AtmosphereService atmospheres(plan, options.backend, [&](double share) {
+    if (options.on_progress)
+      options.on_progress({long(100 * share), 100, 0, seconds_since(start), "atmosphere %"});
+  });
+  const JobContext job{plan, options, **io, *displays, *ledger, atmospheres, *color_config};
   remove_leftovers(job);
 
   RunSummary summary;
@@ -228,6 +239,7 @@ Result<RunSummary> run_job(const plan::Plan& plan, const RunOptions& options) {
     summary.movie_seconds = seconds_since(movie_start);
   }
   summary.complete = all_recorded(job);
+  for (const std::string& text : atmospheres.notes()) summary.notes.push_back(text);
   // What is finished is written down even if the job failed; the first failure is what counts.
   const Status manifest = write_manifest(job);
   if (!failure && !manifest) failure = manifest.error();

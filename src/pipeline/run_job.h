@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/context.h"
 #include "pipeline/stage_times.h"
 #include "plan/plan.h"
 #include "plan/work_list.h"
@@ -16,17 +17,18 @@ struct Progress {
   long done = 0, total = 0;  // frames, kept ones included
   long kept = 0;
   double seconds = 0;  // since the start
-  std::string what;    // "frames" or the movie's name
+  std::string what;    // "frames", "atmosphere %" (of 100) or the movie's name
 };
 
 struct RunOptions {
   std::filesystem::path output = "out";
   std::vector<long> frames;  // numbers from 1, ascending
   plan::Shard shard;
-  bool overwrite = false;                         // render all, whatever is there
-  int jobs = 0;                                   // threads; 0: all cores
-  const std::atomic<int>* stop_signal = nullptr;  // not 0: stop soon
-  std::function<void(const Progress&)> on_progress;
+  bool overwrite = false;                            // render all, whatever is there
+  int jobs = 0;                                      // threads; 0: all cores
+  gpu::Backend backend = gpu::Backend::automatic;    // of models that compute the atmosphere
+  const std::atomic<int>* stop_signal = nullptr;     // not 0: stop soon
+  std::function<void(const Progress&)> on_progress;  // one call at a time, from any thread
 };
 
 struct RunSummary {

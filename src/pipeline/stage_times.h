@@ -5,11 +5,12 @@
 
 namespace skylapse::pipeline {
 
-/// Where a frame's time goes.
-enum class Stage { sky, disc, display, encode, write };
-inline constexpr int kStageCount = 5;
-inline constexpr std::array<std::string_view, kStageCount> kStageNames{"sky", "disc", "display",
-                                                                       "encode", "write"};
+/// Where a frame's time goes; `atmosphere` is what is computed once for a frame, whatever its
+/// pixels, and the wait for it.
+enum class Stage { atmosphere, sky, disc, display, encode, write };
+inline constexpr int kStageCount = 6;
+inline constexpr std::array<std::string_view, kStageCount> kStageNames{
+    "atmosphere", "sky", "disc", "display", "encode", "write"};
 
 /// Milliseconds of each stage.
 struct StageTimes {

@@ -9,19 +9,20 @@ namespace skylapse::plan {
 namespace {
 
 EffectDecision decide_sun_disc(const config::JobConfig& job, const Frame& frame) {
-  const Angle upper_limb = elevation(frame.sky.sun_apparent) + frame.sky.sun_radius;
-  if (!job.sky.sun_disc) return {Effect::sun_disc, false, "switched off by sky.sun_disc"};
+  const Angle upper_limb = elevation(frame.sky.sun_apparent) + frame.sky.sun_radius - frame.horizon;
+  if (!job.sky.sun_disc)
+    return {Effect::sun_disc, false, "switched off by sky.sun_disc", std::nullopt};
   if (upper_limb <= 0 * deg)
     return {Effect::sun_disc, false,
             fmt::format("the disc is below the horizon (upper limb at {:.2f} deg)",
                         upper_limb.in(deg))};
-  if (!sun_disc_in_view(job.cameras[frame.camera].camera, frame.sky))
+  if (!sun_disc_in_view(job.cameras[frame.camera].camera, frame.sky, frame.horizon))
     return {Effect::sun_disc, false, "the sun is outside the picture"};
   return {Effect::sun_disc, true, "the sun is in the picture"};
 }
 
 EffectDecision decide_ground(const config::JobConfig& job, const Frame& frame) {
-  if (!ground_in_view(job.cameras[frame.camera].camera))
+  if (!ground_in_view(job.cameras[frame.camera].camera, frame.horizon))
     return {Effect::ground, false, "no pixel looks below the horizon"};
   return {Effect::ground, true, "the picture reaches below the horizon"};
 }
@@ -29,7 +30,7 @@ EffectDecision decide_ground(const config::JobConfig& job, const Frame& frame) {
 EffectDecision decide_refraction(const config::JobConfig& job, const Frame& frame) {
   const Angle shift = separation(frame.sky.sun_true, frame.sky.sun_apparent);
   if (!job.air.refraction.enabled)
-    return {Effect::refraction, false, "switched off by air.refraction"};
+    return {Effect::refraction, false, "switched off by air.refraction", std::nullopt};
   return {Effect::refraction, true,
           fmt::format("lifts the sun by {:.2f} arcmin", shift.in(arcmin))};
 }
@@ -40,6 +41,14 @@ EffectDecision decide_twilight(const Frame& frame) {
   return {Effect::twilight_continuation, true,
           fmt::format("the model ends at the horizon: shape held, level {:.3g}",
                       frame.sun.twilight_level)};
+}
+
+EffectDecision decide_multiple_scattering(const Plan& plan) {
+  if (plan.model == config::SkyModel::single_scattering)
+    return {Effect::multiple_scattering, false, "left out by sky.model: single-scattering",
+            std::nullopt};
+  return {Effect::multiple_scattering, true,
+          "all orders, level " + sky::bruneton::name_of(plan.job.sky.level)};
 }
 
 /// Directions on the circle of radius `r` around the sun, and its centre.
@@ -86,12 +95,14 @@ std::string name_of(Effect effect) {
       return "refraction";
     case Effect::twilight_continuation:
       return "twilight-continuation";
+    case Effect::multiple_scattering:
+      return "multiple-scattering";
   }
   return "";
 }
 
-bool sun_disc_in_view(const image::Camera& camera, const astro::SkyState& sky) {
-  if (elevation(sky.sun_apparent) + sky.sun_radius <= 0 * deg) return false;
+bool sun_disc_in_view(const image::Camera& camera, const astro::SkyState& sky, Angle horizon) {
+  if (elevation(sky.sun_apparent) + sky.sun_radius <= horizon) return false;
   // A disc smaller than a pixel spreads over its neighbours: look one pixel further out.
   const SolidAngle pixel = image::pixel_solid_angle(camera, camera.width / 2, camera.height / 2);
   const Angle reach = sky.sun_radius + 1.5 * std::sqrt(pixel.in(sr)) * rad;
@@ -100,7 +111,7 @@ bool sun_disc_in_view(const image::Camera& camera, const astro::SkyState& sky) {
   return false;
 }
 
-bool ground_in_view(const image::Camera& camera) {
+bool ground_in_view(const image::Camera& camera, Angle horizon) {
   if (camera.projection == image::Projection::lat_long ||
       camera.projection == image::Projection::cube)
     return true;
@@ -108,14 +119,15 @@ bool ground_in_view(const image::Camera& camera) {
   if (image::position_of(camera, enu_direction(0 * deg, -90 * deg))) return true;
   for (const image::PixelPosition& position : outline(camera)) {
     const auto d = image::direction_at(camera, position);
-    if (d && d->z() < 0) return true;
+    if (d && d->z() < sin(horizon)) return true;
   }
   return false;
 }
 
-std::vector<EffectDecision> decide_effects(const config::JobConfig& job, const Frame& frame) {
+std::vector<EffectDecision> decide_effects(const Plan& plan, const Frame& frame) {
+  const config::JobConfig& job = plan.job;
   return {decide_sun_disc(job, frame), decide_ground(job, frame), decide_refraction(job, frame),
-          decide_twilight(frame)};
+          is_hosek_wilkie(plan.model) ? decide_twilight(frame) : decide_multiple_scattering(plan)};
 }
 
 }  // namespace skylapse::plan

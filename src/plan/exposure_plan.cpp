@@ -1,5 +1,6 @@
 #include "plan/exposure_plan.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "color/exposure.h"
@@ -31,13 +32,15 @@ Status plan_metered(Plan& plan) {
   return Done{};
 }
 
-/// The clear sky that the sun curve exposes for: a function of the sun alone, continued below the
-/// horizon as the picture is, so that the picture's brightness follows smoothly.
+/// The clear sky that the sun curve exposes for: a function of the sun's elevation over the horizon
+/// that the camera sees, continued below it as light fades on the ground, so that the picture's
+/// brightness follows smoothly.
 Luminance clear_sky_of(const config::JobConfig& job, const Frame& frame) {
-  const Luminance sky = sky::mean_clear_sky_luminance(frame.sun.elevation);
-  if (!frame.sun.extrapolated) return sky;
+  const Angle over = elevation(frame.sky.sun_apparent) - frame.horizon;
+  const Luminance sky = sky::mean_clear_sky_luminance(std::clamp(over, 0 * deg, 90 * deg));
+  if (over >= 0 * deg) return sky;
   const Illuminance at_horizon = std::numbers::pi * sky.in(cd_per_m2)*lux;
-  return sky * sky::twilight_level(elevation(frame.sky.sun_true),
+  return sky * sky::twilight_level(elevation(frame.sky.sun_true) - frame.horizon,
                                    true_elevation_of_apparent_horizon(job.air.refraction),
                                    at_horizon);
 }

@@ -80,14 +80,44 @@ std::optional<Error> find_collision(const Plan& plan) {
   return {};
 }
 
-Status add_frames(Plan& plan, const Schedule& schedule) {
-  const config::JobConfig& job = plan.job;
+/// Sun and moon at each time, refracted as `model` has it.
+std::vector<astro::SkyState> sky_states(const config::JobConfig& job, const Schedule& schedule,
+                                        config::SkyModel model) {
   const astro::Ephemeris ephemeris({.algorithm = job.sky.sun_algorithm, .dut1 = job.time.dut1});
   std::vector<astro::SkyState> skies;
   skies.reserve(schedule.times.size());
-  for (const ScheduledTime& time : schedule.times)
+  for (const ScheduledTime& time : schedule.times) {
+    const config::Site& site = job.sites[time.site];
     skies.push_back(
-        ephemeris.sky_state(time.instant, job.sites[time.site].position, job.air.refraction));
+        ephemeris.sky_state(time.instant, site.position, refraction_at(job, site, model)));
+  }
+  return skies;
+}
+
+/// The model, and the suns that go with it: only high sites, which rule Hosek-Wilkie out, have
+/// another refraction in another model.
+std::vector<astro::SkyState> choose_model_and_suns(Plan& plan, const Schedule& schedule) {
+  auto skies = sky_states(plan.job, schedule, plan.job.sky.model);
+  const ModelChoice choice = choose_model(plan.job, schedule, skies);
+  plan.model = choice.model;
+  plan.model_reason = name_of(choice.model) + ": " + choice.reason;
+  return skies;
+}
+
+/// What the model is asked for: `sky_at_horizon` is used by Hosek-Wilkie only.
+void ask_model(const Plan& plan, Illuminance sky_at_horizon, Frame& frame) {
+  const config::JobConfig& job = plan.job;
+  if (is_hosek_wilkie(plan.model)) {
+    frame.sun = sun_for_sky(frame.sky, job.air.refraction, sky_at_horizon);
+    return;
+  }
+  frame.sun = sun_for_atmosphere(frame.sky);
+  frame.camera_height = camera_height(job.sites[frame.site]);
+  frame.horizon = horizon_elevation(frame.camera_height, job.air.description.planet_radius);
+}
+
+Status add_frames(Plan& plan, const Schedule& schedule, const std::vector<astro::SkyState>& skies) {
+  const config::JobConfig& job = plan.job;
   int sequence = 0;
   size_t begin = 0;
   while (begin < schedule.times.size()) {
@@ -96,7 +126,8 @@ Status add_frames(Plan& plan, const Schedule& schedule) {
       ++end;
     for (size_t t = 0; t < job.air.turbidity.size(); ++t)
       for (size_t a = 0; a < job.air.ground_albedo.size(); ++a) {
-        const auto at_horizon = sky_at_horizon(job, int(t), int(a));
+        const auto at_horizon = is_hosek_wilkie(plan.model) ? sky_at_horizon(job, int(t), int(a))
+                                                            : Result<Illuminance>(Illuminance{});
         if (!at_horizon) return at_horizon.error();
         for (size_t c = 0; c < job.cameras.size(); ++c, ++sequence)
           for (size_t i = begin; i < end; ++i) {
@@ -109,7 +140,7 @@ Status add_frames(Plan& plan, const Schedule& schedule) {
             frame.instant = schedule.times[i].instant;
             frame.local = schedule.times[i].local;
             frame.sky = skies[i];
-            frame.sun = sun_for_sky(skies[i], job.air.refraction, *at_horizon);
+            ask_model(plan, *at_horizon, frame);
             frame.paths.resize(job.outputs.size());
             plan.frames.push_back(std::move(frame));
           }
@@ -131,11 +162,14 @@ Result<Plan, Diagnostics> make_plan(config::JobConfig job) {
         {ErrorCode::invalid_input,
          fmt::format("this job has {} frames", schedule->times.size() * combinations),
          job.time.span, fmt::format("allowed: at most {}", config::kMaxJobFrames)}};
-  Plan plan{std::move(job), {}, std::move(schedule->notes), {}};
-  plan.model_reason = plan.job.sky.model == config::SkyModel::automatic
-                          ? "hosek-wilkie: the sky model for an observer on the ground"
-                          : "hosek-wilkie: asked for by sky.model";
-  const Status added = add_frames(plan, *schedule);
+  Plan plan;
+  plan.job = std::move(job);
+  plan.notes = std::move(schedule->notes);
+  auto air = make_air_timeline(plan.job);
+  if (!air) return air.error();
+  plan.air = *std::move(air);
+  const auto skies = choose_model_and_suns(plan, *schedule);
+  const Status added = add_frames(plan, *schedule, skies);
   if (!added) return Diagnostics{added.error()};
   for (size_t o = 0; o < plan.job.outputs.size(); ++o) number_paths(plan, o);
   if (auto collision = find_collision(plan)) return Diagnostics{*collision};

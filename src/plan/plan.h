@@ -6,7 +6,9 @@
 
 #include "astro/sky_state.h"
 #include "config/job_config.h"
+#include "plan/atmosphere_of_frame.h"
 #include "plan/frame_schedule.h"
+#include "plan/sky_model.h"
 #include "plan/sun_for_sky.h"
 
 namespace skylapse::plan {
@@ -20,6 +22,8 @@ struct Frame {
   astro::LocalTime local;
   astro::SkyState sky;
   SunForSky sun;                   // what the sky model is asked for
+  Length camera_height;            // above the ground of a computed atmosphere; else 0
+  Angle horizon;                   // elevation of the camera's horizon, at most 0
   double ev = 0;                   // EV100
   std::vector<std::string> paths;  // one for each output of the job; {face} still to be filled
 };
@@ -28,7 +32,9 @@ struct Plan {
   config::JobConfig job;
   std::vector<Frame> frames;
   std::vector<std::string> notes;
-  std::string model_reason;  // why the model was chosen, for the whole job
+  config::SkyModel model = config::SkyModel::hosek_wilkie;  // of all frames; never `automatic`
+  std::string model_reason;                                 // why that one
+  AirTimeline air;                                          // the air's keyframes in time
 };
 
 /// Errors carry the spans of the config: unresolvable times, two frames writing one file.

@@ -6,6 +6,15 @@
 #include "sky/twilight.h"
 
 namespace skylapse::plan {
+namespace {
+
+/// Irradiance over that at 1 au.
+double distance_factor(const astro::SkyState& sky) {
+  const double au = 1 * astronomical_unit / sky.sun_distance;
+  return au * au;
+}
+
+}  // namespace
 
 Angle true_elevation_of_apparent_horizon(const astro::RefractionConditions& refraction) {
   if (!refraction.enabled) return 0 * deg;
@@ -29,8 +38,15 @@ SunForSky sun_for_sky(const astro::SkyState& sky, const astro::RefractionConditi
   if (sun.extrapolated)
     sun.twilight_level = sky::twilight_level(
         elevation(sky.sun_true), true_elevation_of_apparent_horizon(refraction), sky_at_horizon);
-  const double au = 1 * astronomical_unit / sky.sun_distance;
-  sun.distance_factor = au * au;
+  sun.distance_factor = distance_factor(sky);
+  return sun;
+}
+
+SunForSky sun_for_atmosphere(const astro::SkyState& sky) {
+  SunForSky sun;
+  sun.direction = sky.sun_apparent;
+  sun.elevation = elevation(sky.sun_apparent);
+  sun.distance_factor = distance_factor(sky);
   return sun;
 }
 

@@ -1,0 +1,26 @@
+#pragma once
+// What a picture asks of a sky, whichever model answers.
+#include <functional>
+#include <glm/glm.hpp>
+
+#include "image/camera/camera.h"
+#include "image/frame_buffer.h"
+#include "pipeline/atmosphere_service.h"
+#include "plan/plan.h"
+#include "sky/sun_disc.h"
+
+namespace skylapse::pipeline {
+
+/// Sky, ground and sun of one frame, at the sun's distance.
+struct FrameSky {
+  /// Fills an image of the camera's size with all but the disc, in the space of `xyz_to_rgb`.
+  std::function<void(const image::Camera&, const glm::dmat3& xyz_to_rgb, image::FrameBuffer&)> fill;
+  glm::dvec3 sky_irradiance_xyz{0};  // horizontal, without the disc
+  sky::SunDisc disc;                 // in XYZ
+};
+
+/// The sky of the plan's model.
+Result<FrameSky> sky_of(const plan::Plan& plan, const plan::Frame& frame,
+                        AtmosphereService& atmospheres);
+
+}  // namespace skylapse::pipeline
