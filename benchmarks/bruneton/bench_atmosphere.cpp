@@ -99,6 +99,47 @@ void measure_tables(gpu::Context& context, Level level, int bands, const Argumen
              distance(tables, twin));
 }
 
+/// Greatest distance relative to the brightest texel: of both layers.
+std::string distance(const SkySlice& a, const SkySlice& b) {
+  double worst[2] = {0, 0};
+  for (int layer = 0; layer < 2; ++layer) {
+    const auto& x = layer == 0 ? a.smooth : a.aerosol;
+    const auto& y = layer == 0 ? b.smooth : b.aerosol;
+    float brightest = 0;
+    for (const glm::vec4& texel : y) brightest = std::max(brightest, texel.y);
+    for (size_t i = 0; i < y.size() && brightest > 0; ++i)
+      worst[layer] = std::max(worst[layer], double(std::abs(x[i].y - y[i].y) / brightest));
+  }
+  return fmt::format("{:.2g} and {:.2g} of the brightest", worst[0], worst[1]);
+}
+
+void measure_slices(const std::shared_ptr<gpu::Context>& context, int bands,
+                    const Arguments& arguments) {
+  const atmosphere::Medium medium = medium_of(bands);
+  const auto tables = std::make_shared<const Tables>(
+      value_or_exit(precompute(*context, medium, settings_for(Level::standard, medium))));
+  Timing create;
+  std::vector<GpuModel> models;
+  create.measure([&] { models.push_back(value_or_exit(GpuModel::create(context, *tables))); });
+  fmt::print("model of {} bands: {}\n", bands, create.text());
+  const Twin twin(tables);
+  for (const double height_km : {0.002, 10.0, 400.0})
+    for (const double sun_deg : {30.0, 88.0, 98.0}) {
+      const SliceGrid grid = slice_grid(medium, height_km * km, 64, 128);
+      SkySlice slice = value_or_exit(models[0].slice(height_km * km, sun_deg * deg, grid));
+      Timing timing;
+      for (int run = 0; run < 4 * arguments.runs; ++run)
+        timing.measure(
+            [&] { slice = value_or_exit(models[0].slice(height_km * km, sun_deg * deg, grid)); });
+      fmt::print("slice 64 x 128, {:2} bands, {:7.3f} km, sun {:3.0f} deg: {}\n", bands, height_km,
+                 sun_deg, timing.text());
+      if (arguments.twin)
+        fmt::print("  differs from the twin by {}\n",
+                   distance(slice, twin.slice(height_km * km, sun_deg * deg, grid,
+                                              {.multiple_scattering = true, .ground = true})));
+    }
+}
+
 Arguments parse(int argc, char** argv) {
   Arguments arguments;
   for (int i = 1; i < argc; ++i) {
@@ -127,5 +168,6 @@ int main(int argc, char** argv) {
              std::thread::hardware_concurrency());
   for (const Level level : arguments.levels)
     for (const int bands : arguments.bands) measure_tables(*context, level, bands, arguments);
+  for (const int bands : arguments.bands) measure_slices(context, bands, arguments);
   return 0;
 }

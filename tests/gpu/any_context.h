@@ -23,7 +23,9 @@ inline std::string backend_name(const testing::TestParamInfo<Backend>& info) {
   return info.param == Backend::egl ? "Egl" : "OsMesa";
 }
 
-#define SKYLAPSE_ON_EVERY_CONTEXT(suite) \
-  INSTANTIATE_TEST_SUITE_P(Gl, suite, testing::Values(Backend::egl, Backend::osmesa), backend_name)
+#define SKYLAPSE_ON_EVERY_CONTEXT(suite)                                                       \
+  INSTANTIATE_TEST_SUITE_P(                                                                    \
+      Gl, suite, testing::Values(skylapse::gpu::Backend::egl, skylapse::gpu::Backend::osmesa), \
+      skylapse::gpu::backend_name)
 
 }  // namespace skylapse::gpu

@@ -1,0 +1,219 @@
+#include "sky/bruneton/gpu_model.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "gpu/functions.h"
+#include "gpu/program.h"
+#include "sky/bruneton/physics_buffers.h"
+#include "sky/bruneton/rays.h"
+#include "sky/bruneton/twin.h"
+
+namespace skylapse::sky::bruneton {
+namespace {
+
+constexpr int kGroupSize = 32;              // local_size_x of both shaders
+constexpr size_t kQueriesAtOnce = 1 << 15;  // bounds the memory of long lists
+
+// As in shaders/entry/slice.comp and answer.comp (std140).
+struct SliceBlock {
+  float mu_s;
+  int azimuths, rows;
+  int multiple_scattering, ground;
+  int unused[3];
+};
+struct AnswerBlock {
+  int multiple_scattering, ground;
+  int unused[2];
+};
+static_assert(sizeof(SliceBlock) == 32 && sizeof(AnswerBlock) == 16, "the layout of std140");
+
+/// QueryRays of answer.comp, in double.
+struct QueryRays {
+  text::Ray view, to_sun;
+  double mu_s, nu, sun_visible, unused;
+};
+
+std::vector<float> xyz_weights(const atmosphere::Medium& medium, GroupRange range) {
+  std::vector<float> weights;
+  for (size_t band = 4 * size_t(range.first); band < 4 * size_t(range.first + range.count); ++band)
+    for (int c = 0; c < 4; ++c) {
+      const bool spare = band >= medium.bands.size() || c == 3;
+      weights.push_back(spare ? 0.0f : float(medium.bands[band].xyz_weight[c]));
+    }
+  return weights;
+}
+
+/// What the shaders need for one range of groups.
+struct Range {
+  GroupRange groups;
+  PhysicsBuffers physics;
+  std::vector<gpu::Texture> source;
+  gpu::Buffer xyz_weight;
+  gpu::Program slice, answer;
+};
+
+Result<Range> create_range(const gpu::Functions& gl, const Tables& tables, const PhysicsData& data,
+                           const Columns& columns, GroupRange groups) {
+  Range range;
+  range.groups = groups;
+  auto physics = PhysicsBuffers::create(gl, data, columns, groups);
+  if (!physics) return physics.error();
+  range.physics = std::move(physics).value();
+  if (!tables.ground_irradiance.empty()) {
+    std::vector<float> rows;
+    for (int g = groups.first; g < groups.first + groups.count; ++g)
+      rows.insert(rows.end(), tables.ground_irradiance[g].begin(),
+                  tables.ground_irradiance[g].end());
+    range.physics.set_ground(gl, rows);
+  }
+  const bool empty = tables.source.empty();
+  for (int g = groups.first; g < groups.first + groups.count; ++g) {
+    const float black[4] = {0, 0, 0, 0};
+    auto texture =
+        gpu::Texture::create(gl, empty ? gpu::TextureSize{1, 1, 1} : source_size(tables.settings),
+                             empty ? black : tables.source[g].data());
+    if (!texture) return texture.error();
+    range.source.push_back(std::move(texture).value());
+  }
+  range.xyz_weight = gpu::Buffer::of(gl, xyz_weights(tables.medium, groups));
+  for (const auto& [program, entry] : {std::pair{&range.slice, "entry/slice.comp"},
+                                       std::pair{&range.answer, "entry/answer.comp"}}) {
+    auto made = gpu::Program::create(gl, entry, physics_defines(groups.count));
+    if (!made) return made.error();
+    *program = std::move(made).value();
+  }
+  return range;
+}
+
+QueryRays query_rays(const Columns& columns, const Query& query) {
+  const double h = query.height.in(km);
+  assert(std::isfinite(h) && h >= 0);
+  Geometry geometry = columns.paths().geometry();
+  const double mu_s = cos(query.sun_zenith);
+  // 1 - nu = 2 sin^2 of half the angle: exact at the sun, where the aerosol phase is steepest.
+  const double a = sin((query.view_zenith - query.sun_zenith) / 2), b = sin(query.azimuth / 2);
+  const double nu = 1 - 2 * (a * a + sin(query.view_zenith) * sin(query.sun_zenith) * b * b);
+  const double visible = geometry.sun_visibility(h, mu_s);
+  const double above_horizon = std::max(mu_s, geometry.horizon_mu(h));
+  return {make_ray(columns, h, cos(query.view_zenith)),
+          make_ray(columns, h, above_horizon, RaySide::sky),
+          mu_s,
+          std::clamp(nu, -1.0, 1.0),
+          visible,
+          0};
+}
+
+}  // namespace
+
+struct GpuModel::State {
+  std::shared_ptr<gpu::Context> context;
+  atmosphere::Medium medium;
+  std::shared_ptr<const Columns> columns;
+  bool has_source = false;
+  std::vector<Range> ranges;
+};
+
+Result<GpuModel> GpuModel::create(std::shared_ptr<gpu::Context> context, const Tables& tables) {
+  auto state = std::make_shared<State>();
+  state->context = std::move(context);
+  state->medium = tables.medium;
+  state->columns = make_columns(tables.medium);
+  state->has_source = !tables.source.empty();
+  const PhysicsData data = physics_data(tables.medium, tables.settings, MarchSettings{}.samples);
+  const Status status = state->context->run([&](const gpu::Functions& gl) -> Status {
+    for (const GroupRange groups : group_ranges(tables.groups())) {
+      auto range = create_range(gl, tables, data, *state->columns, groups);
+      if (!range) return range.error();
+      state->ranges.push_back(std::move(range).value());
+    }
+    return Done{};
+  });
+  if (!status) return status.error();
+  return GpuModel(std::move(state));
+}
+
+Result<SkySlice> GpuModel::slice(Length camera_height, Angle sun_zenith, const SliceGrid& grid,
+                                 SliceContent content) const {
+  const State& state = *state_;
+  std::vector<float> rays, mu;
+  for (const SliceRow& row : slice_rows(*state.columns, camera_height.in(km), grid)) {
+    const std::vector<float> ray = floats_of_block(row.ray);
+    rays.insert(rays.end(), ray.begin(), ray.end());
+    mu.push_back(float(row.mu));
+  }
+  const SliceBlock block{float(cos(sun_zenith)), grid.azimuths,
+                         grid.zeniths,           content.multiple_scattering && state.has_source,
+                         content.ground,         {}};
+  SkySlice slice{grid, state.medium.aerosol_g, sun_zenith.in(rad), {}, {}};
+  const size_t count = size_t(grid.azimuths) * grid.zeniths, bytes = count * sizeof(glm::vec4);
+  slice.smooth.resize(count);
+  slice.aerosol.resize(count);
+  const Status status = state.context->run([&](const gpu::Functions& gl) -> Status {
+    const gpu::Buffer uniforms = gpu::Buffer::of_block(gl, block);
+    const gpu::Buffer ray_buffer = gpu::Buffer::of(gl, rays), mu_buffer = gpu::Buffer::of(gl, mu);
+    const gpu::Buffer smooth = gpu::Buffer::create(gl, bytes),
+                      aerosol = gpu::Buffer::create(gl, bytes);
+    for (const Range& range : state.ranges) {
+      range.physics.bind(gl, range.source);
+      uniforms.bind_uniform(gl, 3);
+      range.xyz_weight.bind_uniform(gl, 4);
+      ray_buffer.bind_storage(gl, 1);
+      mu_buffer.bind_storage(gl, 2);
+      smooth.bind_storage(gl, 3);
+      aerosol.bind_storage(gl, 4);
+      range.slice.dispatch(gl, {gpu::groups_for(int(count), kGroupSize)});
+    }
+    smooth.read(gl, 0, bytes, slice.smooth.data());
+    aerosol.read(gl, 0, bytes, slice.aerosol.data());
+    return Done{};
+  });
+  if (!status) return status.error();
+  return slice;
+}
+
+Result<std::vector<Answer>> GpuModel::answer(const std::vector<Query>& queries,
+                                             SliceContent content) const {
+  const State& state = *state_;
+  const AnswerBlock block{content.multiple_scattering && state.has_source, content.ground, {}};
+  const size_t bands = state.medium.bands.size();
+  std::vector<Answer> answers(queries.size());
+  for (size_t first = 0; first < queries.size(); first += kQueriesAtOnce) {
+    const size_t count = std::min(kQueriesAtOnce, queries.size() - first);
+    std::vector<float> rays;
+    for (size_t i = 0; i < count; ++i) {
+      const std::vector<float> query =
+          floats_of_block(query_rays(*state.columns, queries[first + i]));
+      rays.insert(rays.end(), query.begin(), query.end());
+    }
+    const Status status = state.context->run([&](const gpu::Functions& gl) -> Status {
+      const gpu::Buffer uniforms = gpu::Buffer::of_block(gl, block);
+      const gpu::Buffer ray_buffer = gpu::Buffer::of(gl, rays);
+      for (const Range& range : state.ranges) {
+        const size_t groups = size_t(range.groups.count);
+        std::vector<glm::vec4> values(3 * groups * count);
+        const gpu::Buffer results = gpu::Buffer::create(gl, values.size() * sizeof(glm::vec4));
+        range.physics.bind(gl, range.source);
+        uniforms.bind_uniform(gl, 3);
+        ray_buffer.bind_storage(gl, 1);
+        results.bind_storage(gl, 2);
+        range.answer.dispatch(gl, {gpu::groups_for(int(count), kGroupSize)});
+        results.read(gl, 0, results.bytes(), values.data());
+        for (size_t i = 0; i < count; ++i)
+          for (size_t c = 0; c < 4 * groups && 4 * range.groups.first + c < bands; ++c) {
+            const glm::vec4* at = &values[3 * (i * groups + c / 4)];
+            Answer& answer = answers[first + i];
+            answer.radiance.push_back(double(at[0][int(c % 4)]));
+            answer.transmittance.push_back(double(at[1][int(c % 4)]));
+            answer.sun_transmittance.push_back(double(at[2][int(c % 4)]));
+          }
+      }
+      return Done{};
+    });
+    if (!status) return status.error();
+  }
+  return answers;
+}
+
+}  // namespace skylapse::sky::bruneton
