@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "cli/table.h"
@@ -17,9 +18,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string marks_of(const config::JobConfig& job, const plan::Frame& frame) {
+std::string marks_of(const plan::Plan& plan, const plan::Frame& frame) {
   std::string marks;
-  for (const auto& decision : plan::decide_effects(job, frame))
+  for (const auto& decision : plan::decide_effects(plan, frame))
     if (decision.on) marks += (marks.empty() ? "" : " ") + name_of(decision.effect);
   return marks + (frame.sun.extrapolated ? " (extrapolated)" : "");
 }
@@ -35,8 +36,8 @@ Table frame_table(const PlannedWork& work) {
                           number_cell(azimuth(frame.sky.sun_apparent).in(deg), 2),
                           number_cell(elevation(frame.sky.sun_apparent).in(deg), 3),
                           number_cell(frame.ev, 2),
-                          text_cell("hosek-wilkie"),
-                          text_cell(marks_of(work.plan.job, frame)),
+                          text_cell(plan::name_of(work.plan.model)),
+                          text_cell(marks_of(work.plan, frame)),
                           text_cell(plan::files_of(work.plan, frame, 0).front())});
   }
   return table;
@@ -61,6 +62,23 @@ Wording wording_of(const std::string& reason) {
           point == std::string::npos ? 0 : int(text.size() - point - 1)};
 }
 
+std::string bound_text(const std::optional<double>& bound) {
+  return bound ? fmt::format("; error bound {:g}", *bound) : "; error not bounded";
+}
+
+/// The tables of a computed atmosphere, or nothing.
+std::string atmosphere_text(const plan::Plan& plan, const plan::Cost& cost) {
+  if (plan::is_hosek_wilkie(plan.model)) return "";
+  const config::Sky& sky = plan.job.sky;
+  std::string text = fmt::format("atmosphere: {} wavelengths", sky.wavelengths);
+  if (plan.model == config::SkyModel::bruneton)
+    text += fmt::format(", level {}, {} set{} of tables ({} on disk, {} to compute unless cached)",
+                        sky::bruneton::name_of(sky.level), cost.table_sets,
+                        cost.table_sets == 1 ? "" : "s", bytes_text(cost.table_bytes),
+                        duration_text(cost.table_core_seconds / available_cores()));
+  return text + "\n";
+}
+
 /// Each effect with the frames it is on and off for, and the reasons, numbers as a range.
 std::string effect_summary(const PlannedWork& work) {
   struct Kind {
@@ -68,12 +86,13 @@ std::string effect_summary(const PlannedWork& work) {
     double low = 0, high = 0;
     int decimals = -1;
   };
-  using Key = std::tuple<plan::Effect, bool, std::string, std::string>;
+  // Effect, off, reason before and after its number, known bound of the error.
+  using Key = std::tuple<plan::Effect, bool, std::string, std::string, std::optional<double>>;
   std::map<Key, Kind> kinds;
   for (const long number : work.frames)
-    for (const auto& d : plan::decide_effects(work.plan.job, work.plan.frames[number - 1])) {
+    for (const auto& d : plan::decide_effects(work.plan, work.plan.frames[number - 1])) {
       const Wording wording = wording_of(d.reason);
-      Kind& kind = kinds[{d.effect, !d.on, wording.before, wording.after}];
+      Kind& kind = kinds[{d.effect, !d.on, wording.before, wording.after, d.error_bound}];
       kind.low = kind.frames == 0 ? wording.number : std::min(kind.low, wording.number);
       kind.high = kind.frames == 0 ? wording.number : std::max(kind.high, wording.number);
       kind.decimals = std::max(kind.decimals, wording.decimals);
@@ -89,9 +108,18 @@ std::string effect_summary(const PlannedWork& work) {
     }
     text += fmt::format("  {:<22} {:<3} in {:>4} frames: {}{}{}{}\n", name_of(std::get<0>(key)),
                         std::get<1>(key) ? "off" : "on", kind.frames, std::get<2>(key), range,
-                        std::get<3>(key), std::get<1>(key) ? "; error bound 0" : "");
+                        std::get<3>(key), std::get<1>(key) ? bound_text(std::get<4>(key)) : "");
   }
   return text;
+}
+
+ordered_json atmosphere_json(const plan::Plan& plan, const plan::Cost& cost) {
+  if (plan::is_hosek_wilkie(plan.model)) return nullptr;
+  return {{"level", sky::bruneton::name_of(plan.job.sky.level)},
+          {"wavelengths", plan.job.sky.wavelengths},
+          {"table_sets", cost.table_sets},
+          {"table_core_seconds", cost.table_core_seconds},
+          {"table_bytes", cost.table_bytes}};
 }
 
 ordered_json direction_json(const Direction<Enu>& d) {
@@ -126,7 +154,9 @@ std::string plan_text(const PlannedWork& work) {
                       plan.job.air.turbidity.size(), plan.job.air.ground_albedo.size(),
                       plan.job.cameras.size());
   text += fmt::format("model: {}\n", plan.model_reason);
-  text += fmt::format("extrapolated: {} frames with the sun below the horizon\n", extrapolated);
+  text += atmosphere_text(plan, cost);
+  if (extrapolated > 0)
+    text += fmt::format("extrapolated: {} frames with the sun below the horizon\n", extrapolated);
   text += "effects:\n" + effect_summary(work);
   for (const std::string& note : plan.notes) text += "note: " + note + "\n";
   text += fmt::format("estimate: {} on {} cores, {} written\n",
@@ -142,9 +172,9 @@ ordered_json plan_json(const PlannedWork& work) {
   for (const long number : work.frames) {
     const plan::Frame& frame = plan.frames[number - 1];
     auto effects = ordered_json::array();
-    for (const auto& d : plan::decide_effects(plan.job, frame)) {
+    for (const auto& d : plan::decide_effects(plan, frame)) {
       ordered_json effect{{"effect", name_of(d.effect)}, {"on", d.on}, {"reason", d.reason}};
-      if (!d.on) effect["error_bound"] = 0;
+      if (!d.on) effect["error_bound"] = d.error_bound ? ordered_json(*d.error_bound) : nullptr;
       effects.push_back(effect);
     }
     auto files = ordered_json::array();
@@ -160,13 +190,15 @@ ordered_json plan_json(const PlannedWork& work) {
                       {"turbidity", plan.job.air.turbidity[frame.turbidity].value},
                       {"ground_albedo", plan.job.air.ground_albedo[frame.albedo].value.name},
                       {"camera", plan.job.cameras[frame.camera].name},
-                      {"model", "hosek-wilkie"},
+                      {"model", plan::name_of(plan.model)},
                       {"extrapolated", frame.sun.extrapolated},
                       {"effects", effects},
                       {"files", files}});
   }
   return {{"config", plan.job.file},
+          {"model", plan::name_of(plan.model)},
           {"model_reason", plan.model_reason},
+          {"atmosphere", atmosphere_json(plan, cost)},
           {"notes", plan.notes},
           {"estimate", {{"core_seconds", cost.core_seconds}, {"bytes", cost.bytes}}},
           {"frames", frames}};

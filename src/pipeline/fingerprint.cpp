@@ -32,7 +32,7 @@ json air_json(const config::JobConfig& job, const plan::Frame& frame) {
 /// What the model of the plan depends on, and no other.
 json sky_json(const plan::Plan& plan, const plan::Frame& frame) {
   const config::Sky& sky = plan.job.sky;
-  json all{{"model", name_of(plan.model)},
+  json all{{"model", plan::name_of(plan.model)},
            {"disc", sky.sun_disc},
            {"sun_algorithm", name_of(sky.sun_algorithm)}};
   if (plan::is_hosek_wilkie(plan.model)) {

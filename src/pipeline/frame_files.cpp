@@ -88,7 +88,7 @@ output::FrameMetadata metadata_of(const plan::Plan& plan, const plan::Frame& fra
   meta.view = output.view.value_or("");
   meta.environment = environment_of(job.cameras[frame.camera]);
   meta.exposure_ev100 = frame.ev;
-  meta.model = name_of(plan.model);
+  meta.model = plan::name_of(plan.model);
   meta.extrapolated = frame.sun.extrapolated;
   meta.fingerprint = fingerprint;
   meta.sun_illuminance = rendered.sun_normal_irradiance_xyz.y * kLuminousEfficacy * lux;

@@ -5,12 +5,16 @@
 namespace skylapse::plan {
 
 struct Cost {
-  double core_seconds = 0;  // of one core
-  double bytes = 0;         // written
+  double core_seconds = 0;        // of one core; tables that have to be computed included
+  double bytes = 0;               // written
+  int table_sets = 0;             // of the atmosphere: one for each air, fewer where air changes
+  double table_core_seconds = 0;  // to compute them all
+  double table_bytes = 0;         // they take in the cache
 };
 
 /// Estimate for the given frames (numbers from 1). The rates per pixel are those that
-/// bench_hosek_wilkie and bench_output print for 1280x720; other machines differ by their speed,
+/// bench_hosek_wilkie, bench_slice_image and bench_output print, those of tables and slices what
+/// the benchmarks of the atmosphere print for software GL; other machines differ by their speed,
 /// pictures by their detail: expect a factor of 2 either way.
 Cost estimate_cost(const Plan& plan, const std::vector<long>& frames);
 
