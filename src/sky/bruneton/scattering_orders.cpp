@@ -18,15 +18,17 @@ std::vector<double> cosine_matrix(const std::vector<double>& azimuths, int degre
 
 }  // namespace
 
-ScatteringOrders::ScatteringOrders(const Columns& columns, const Settings& settings)
-    : columns_(columns),
-      settings_(settings),
+ScatteringOrders::ScatteringOrders(const Columns& columns, const Settings& settings,
+                                   int first_group, int count)
+    : settings_(settings),
+      first_group_(first_group),
       data_(physics_data(columns.medium(), settings, 2)),
       warp_(sun_warp(columns.medium())),
       index_{settings.harmonics},
       first_lists_(march_lists(columns, settings, settings.first_order_samples)),
       lists_(march_lists(columns, settings, settings.samples)) {
   data_.columns = columns.nodes().data();
+  data_.groups = {data_.groups.begin() + first_group, data_.groups.begin() + first_group + count};
   for (int j = 0; j < settings.suns; ++j)
     sun_mu_.push_back(std::cos(warp_.zenith_at(double(j) / (settings.suns - 1))));
   Geometry text(data_);
@@ -67,7 +69,7 @@ glm::dvec4 ScatteringOrders::weight(const std::vector<double>& weights, size_t i
   const int bands = lists_.bands;
   const double* at = weights.data() + item * bands;
   glm::dvec4 result;
-  for (int c = 0; c < 4; ++c) result[c] = at[std::min(4 * group + c, bands - 1)];
+  for (int c = 0; c < 4; ++c) result[c] = at[std::min(4 * (first_group_ + group) + c, bands - 1)];
   return result;
 }
 
@@ -81,14 +83,14 @@ void ScatteringOrders::light_ground(IncidentLight& incident) const {
   const DirectionRows& rows = lists_.rows[0];
   const int suns = settings_.suns, azimuths = settings_.azimuths;
   for (int g = 0; g < groups(); ++g) {
-    std::vector<glm::dvec4> nodes(suns, glm::dvec4(0));
+    std::vector<glm::dvec4>& ground = incident.ground[g];
     for (int k = 0; k < rows.up; ++k)
       for (int j = 0; j < suns; ++j)
         for (int a = 0; a < azimuths; ++a)
-          nodes[j] += incident.light[g][(size_t(k) * suns + j) * azimuths + a] *
-                      (rows.mu[k] * rows.weight[k] * 2 * text::PI / azimuths);
-    if (warp_.dark_end) nodes.back() = glm::dvec4(0);
-    upsample_suns(&nodes[0][0], 4, &incident.ground[g][0][0], 4, 4, settings_, warp_.dark_end);
+          ground[size_t(j) * settings_.sun_rows_per_interval] +=
+              incident.light[g][(size_t(k) * suns + j) * azimuths + a] *
+              (rows.mu[k] * rows.weight[k] * 2 * text::PI / azimuths);
+    fill_ground_rows(ground);
   }
 }
 
@@ -154,7 +156,7 @@ Source ScatteringOrders::gather(const IncidentLight& incident) const {
     for (size_t i = begin; i < end; ++i) {
       const int lit = settings_.suns - (warp_.dark_end ? 1 : 0);
       for (int j = 0; j < lit; ++j) gather_point(i, j, incident, result);
-      fill_sun_rows(i, result);
+      for (std::vector<glm::dvec4>& source : result) fill_sun_rows(i, source);
     }
   });
   return result;
@@ -179,7 +181,7 @@ void ScatteringOrders::gather_point(size_t height, size_t sun, const IncidentLig
           coefficients[index_.at(l, m)] += sum * factors[index_.at(l, m)];
       }
     }
-    const std::vector<glm::dvec4>& moments = moments_[height][g];
+    const std::vector<glm::dvec4>& moments = moments_[height][first_group_ + g];
     for (int m = 0; m <= degree; ++m)
       for (int l = m; l <= degree; ++l) coefficients[index_.at(l, m)] *= moments[l];
     for (int z = 0; z < settings_.table_zeniths; ++z) {
@@ -200,18 +202,33 @@ void ScatteringOrders::gather_point(size_t height, size_t sun, const IncidentLig
   }
 }
 
-void ScatteringOrders::fill_sun_rows(size_t height, Source& out) const {
+void ScatteringOrders::fill_sun_rows(size_t height, std::vector<glm::dvec4>& source) const {
   const size_t azimuths = settings_.table_azimuths, rows = settings_.sun_rows();
   std::vector<glm::dvec4> nodes(settings_.suns * azimuths);
-  for (int g = 0; g < groups(); ++g)
-    for (int z = 0; z < settings_.table_zeniths; ++z) {
-      glm::dvec4* slab = &out[g][(height * settings_.table_zeniths + z) * rows * azimuths];
-      for (int j = 0; j < settings_.suns; ++j)
-        std::copy_n(slab + size_t(j) * settings_.sun_rows_per_interval * azimuths, azimuths,
-                    &nodes[j * azimuths]);
-      upsample_suns(&nodes[0][0], 4 * azimuths, &slab[0][0], 4 * azimuths, int(4 * azimuths),
-                    settings_, warp_.dark_end);
-    }
+  for (int z = 0; z < settings_.table_zeniths; ++z) {
+    glm::dvec4* slab = &source[(height * settings_.table_zeniths + z) * rows * azimuths];
+    for (int j = 0; j < settings_.suns; ++j)
+      std::copy_n(slab + size_t(j) * settings_.sun_rows_per_interval * azimuths, azimuths,
+                  &nodes[j * azimuths]);
+    upsample_suns(&nodes[0][0], 4 * azimuths, &slab[0][0], 4 * azimuths, int(4 * azimuths),
+                  settings_, warp_.dark_end);
+  }
+}
+
+void ScatteringOrders::fill_ground_rows(std::vector<glm::dvec4>& ground) const {
+  std::vector<glm::dvec4> nodes;
+  for (int j = 0; j < settings_.suns; ++j)
+    nodes.push_back(ground[size_t(j) * settings_.sun_rows_per_interval]);
+  if (warp_.dark_end) nodes.back() = glm::dvec4(0);
+  upsample_suns(&nodes[0][0], 4, &ground[0][0], 4, 4, settings_, warp_.dark_end);
+}
+
+void ScatteringOrders::fill_rows(std::vector<glm::dvec4>& source,
+                                 std::vector<glm::dvec4>& ground) const {
+  parallel_for_ranges(settings_.heights, 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) fill_sun_rows(i, source);
+  });
+  fill_ground_rows(ground);
 }
 
 IncidentLight ScatteringOrders::march(const Source& source, const IncidentLight& incident) const {

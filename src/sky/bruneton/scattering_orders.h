@@ -20,10 +20,11 @@ struct IncidentLight {
 /// source[height][zenith][sun row][azimuth].
 using Source = std::vector<std::vector<glm::dvec4>>;
 
-/// Everything that the orders share. Keeps a reference to `columns`.
+/// Everything that the orders share. `columns` must outlive it.
 class ScatteringOrders {
  public:
-  ScatteringOrders(const Columns& columns, const Settings& settings);
+  /// `count` groups of bands from `first_group` on; IncidentLight and Source number them from 0.
+  ScatteringOrders(const Columns& columns, const Settings& settings, int first_group, int count);
 
   /// Light scattered once, and direct sunlight off the ground.
   [[nodiscard]] IncidentLight first_order();
@@ -33,6 +34,9 @@ class ScatteringOrders {
   /// `incident`.
   [[nodiscard]] IncidentLight march(const Source& source, const IncidentLight& incident) const;
 
+  /// Fills the rows between the sun nodes, of a source and of ground light.
+  void fill_rows(std::vector<glm::dvec4>& source, std::vector<glm::dvec4>& ground) const;
+
   [[nodiscard]] int groups() const { return int(data_.groups.size()); }
 
  private:
@@ -40,15 +44,16 @@ class ScatteringOrders {
   void march_ray(size_t ray, const Source& source, const IncidentLight& before,
                  IncidentLight& out) const;
   void gather_point(size_t height, size_t sun, const IncidentLight& incident, Source& out) const;
-  void fill_sun_rows(size_t height, Source& out) const;
+  void fill_sun_rows(size_t height, std::vector<glm::dvec4>& source) const;
+  void fill_ground_rows(std::vector<glm::dvec4>& ground) const;
   void light_ground(IncidentLight& incident) const;
   [[nodiscard]] IncidentLight empty_light() const;
   [[nodiscard]] glm::dvec4 weight(const std::vector<double>& weights, size_t item, int group) const;
   [[nodiscard]] double sun_row(double mu_s) const;
 
-  const Columns& columns_;
   Settings settings_;
-  PhysicsData data_;
+  int first_group_;
+  PhysicsData data_;  // of these groups
   SunWarp warp_;
   HarmonicIndex index_;
   MarchLists first_lists_, lists_;

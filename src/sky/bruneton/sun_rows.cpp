@@ -22,19 +22,24 @@ double mean_height(const atmosphere::DensityProfile& profile, double top_km, boo
 
 }  // namespace
 
-SunWarp sun_warp(const atmosphere::Medium& medium) {
-  constexpr double kHalfTurn = std::numbers::pi;
-  const double R = medium.bottom_radius_km, H = medium.top_height_km;
+double scattering_top_km(const atmosphere::Medium& medium) {
+  const double H = medium.top_height_km;
   bool air = false, aerosol = false;
   for (const atmosphere::SpectralBand& band : medium.bands) {
     air |= band.rayleigh_scattering_per_km > 0;
     aerosol |= band.aerosol_scattering_per_km > 0;
   }
-  // 7.5 mean heights and the shares of the dip below were chosen by convergence for Earth's air up
-  // to 60 km: centre 94 deg, width 5 deg, end 114.8 deg. The mean of exp(-h / 8 km) is 7.96 km.
   const double mean =
       std::max(mean_height(medium.rayleigh, H, air), mean_height(medium.aerosol, H, aerosol));
-  const double scattering_top = mean > 0 ? std::min(H, 7.55 * mean) : H;
+  return mean > 0 ? std::min(H, 7.55 * mean) : H;
+}
+
+SunWarp sun_warp(const atmosphere::Medium& medium) {
+  constexpr double kHalfTurn = std::numbers::pi;
+  const double R = medium.bottom_radius_km, H = medium.top_height_km;
+  // 7.55 mean heights and the shares of the dip below were chosen by convergence for Earth's air up
+  // to 60 km: centre 94 deg, width 5 deg, end 114.8 deg. The mean of exp(-h / 8 km) is 7.96 km.
+  const double scattering_top = scattering_top_km(medium);
   const auto dip = [&](double h) { return std::acos(R / (R + h)); };
   SunWarp warp{};
   warp.centre_rad = kHalfTurn / 2 + 0.51 * dip(scattering_top);

@@ -26,10 +26,12 @@ struct SunWarp {
   }
 };
 
+/// 7.55 mean heights of the higher of air and aerosol, but not more than the top: 60 km on Earth.
+double scattering_top_km(const atmosphere::Medium& medium);
+
 /// The warp of a medium. Light ends a little past 90 deg + 3 acos(R / (R + H)): a point at the top
 /// then sees, along its horizon, no air that the sun still lights. Light falls fastest
-/// about half of acos(R / (R + h)) below the horizon, h being 7.5 mean heights of the scattering
-/// air (60 km on Earth) but not more than the top.
+/// about half of acos(R / (R + h)) below the horizon, h being scattering_top_km.
 SunWarp sun_warp(const atmosphere::Medium& medium);
 
 /// Slope at a node by its neighbouring secants: their mean, at most 3 times the smaller, 0 at an

@@ -7,30 +7,62 @@
 namespace skylapse::sky::bruneton {
 namespace {
 
-OrderSums order_sums(const std::vector<glm::dvec4>& source, const Settings& size) {
-  OrderSums sums(size_t(size.heights) * size.sun_rows(), glm::dvec4(0));
-  size_t i = 0;
+/// Sums and tails live at the sun nodes; the rows between them are filled once, at the end.
+Settings at_nodes(Settings settings) {
+  settings.sun_rows_per_interval = 1;
+  return settings;
+}
+
+/// Calls body(place in the table, height, sun node) for all entries of the rows that are nodes.
+template <class Body>
+void for_node_entries(const Settings& size, const Body& body) {
+  const size_t azimuths = size.table_azimuths, per = size.sun_rows_per_interval;
+  size_t slab = 0;
   for (int h = 0; h < size.heights; ++h)
-    for (int z = 0; z < size.table_zeniths; ++z)
-      for (int row = 0; row < size.sun_rows(); ++row)
-        for (int a = 0; a < size.table_azimuths; ++a)
-          sums[size_t(h) * size.sun_rows() + row] += source[i++];
+    for (int z = 0; z < size.table_zeniths; ++z, ++slab)
+      for (int j = 0; j < size.suns; ++j)
+        for (size_t a = 0; a < azimuths; ++a)
+          body((slab * size.sun_rows() + j * per) * azimuths + a, h, j);
+}
+
+OrderSums order_sums(const std::vector<glm::dvec4>& source, const Settings& size) {
+  OrderSums sums(size_t(size.heights) * size.suns, glm::dvec4(0));
+  for_node_entries(size,
+                   [&](size_t i, int h, int j) { sums[size_t(h) * size.suns + j] += source[i]; });
   return sums;
 }
 
-void add(std::vector<glm::dvec4>& sum, const std::vector<glm::dvec4>& order) {
-  for (size_t i = 0; i < sum.size(); ++i) sum[i] += order[i];
-}
+/// What the orders add up to, and the last of them, of one group.
+struct Total {
+  std::vector<glm::dvec4> source, ground;
+  OrderTail tail;
 
-void add_tail(std::vector<glm::dvec4>& sum, const std::vector<glm::dvec4>& last,
-              const OrderSums& factors, const Settings& size) {
-  size_t i = 0;
-  for (int h = 0; h < size.heights; ++h)
-    for (int z = 0; z < size.table_zeniths; ++z)
-      for (int row = 0; row < size.sun_rows(); ++row)
-        for (int a = 0; a < size.table_azimuths; ++a, ++i)
-          sum[i] += last[i] * factors[size_t(h) * size.sun_rows() + row];
-}
+  Total(const std::vector<glm::dvec4>& first, const std::vector<glm::dvec4>& first_ground,
+        const Settings& settings)
+      : source(first), ground(first_ground), tail(at_nodes(settings)) {
+    tail.add(order_sums(first, settings));
+  }
+
+  void add(const std::vector<glm::dvec4>& order, const std::vector<glm::dvec4>& order_ground,
+           const Settings& settings) {
+    for_node_entries(settings, [&](size_t i, int, int) { source[i] += order[i]; });
+    for (size_t i = 0; i < ground.size(); ++i) ground[i] += order_ground[i];
+    tail.add(order_sums(order, settings));
+  }
+
+  /// `order_ground` lit the ground for `order`: its light is one order behind the source.
+  void add_tail(const std::vector<glm::dvec4>& order, const std::vector<glm::dvec4>& order_ground,
+                const Settings& settings) {
+    const OrderSums factors = tail.tail_factors(), ground_factors = tail.ground_tail_factors();
+    for_node_entries(settings, [&](size_t i, int h, int j) {
+      source[i] += order[i] * factors[size_t(h) * settings.suns + j];
+    });
+    for (int j = 0; j < settings.suns; ++j) {
+      const size_t row = size_t(j) * settings.sun_rows_per_interval;
+      ground[row] += order_ground[row] * ground_factors[j];
+    }
+  }
+};
 
 std::vector<float> rounded(const std::vector<glm::dvec4>& values) {
   std::vector<float> result;
@@ -40,50 +72,46 @@ std::vector<float> rounded(const std::vector<glm::dvec4>& values) {
   return result;
 }
 
+/// Groups whose orders are computed together and stop together.
+constexpr int kGroupsAtOnce = 4;
+
+void compute_groups(const Columns& columns, const Settings& settings, int first, int count,
+                    Tables& tables) {
+  ScatteringOrders orders(columns, settings, first, count);
+  IncidentLight incident = orders.first_order();
+  Source order = orders.gather(incident);
+  std::vector<Total> totals;
+  for (int g = 0; g < count; ++g) totals.emplace_back(order[g], incident.ground[g], settings);
+  const auto done = [](const Total& total) { return total.tail.done(); };
+  while (!std::all_of(totals.begin(), totals.end(), done)) {
+    incident = orders.march(order, incident);
+    order = orders.gather(incident);
+    for (int g = 0; g < count; ++g) totals[g].add(order[g], incident.ground[g], settings);
+  }
+  for (int g = 0; g < count; ++g) {
+    Total& total = totals[g];
+    total.add_tail(order[g], incident.ground[g], settings);
+    orders.fill_rows(total.source, total.ground);
+    tables.source.push_back(rounded(total.source));
+    tables.ground_irradiance.push_back(rounded(total.ground));
+    tables.orders = std::max(tables.orders, total.tail.orders());
+    for (size_t c = 0; c < 4 && 4 * (first + g) + c < tables.medium.bands.size(); ++c) {
+      tables.last_addition[4 * (first + g) + c] = total.tail.last_addition()[int(c)];
+      tables.tail_ratio[4 * (first + g) + c] = total.tail.ratio()[int(c)];
+    }
+  }
+}
+
 }  // namespace
 
 Tables precompute_twin(const atmosphere::Medium& medium, const Settings& settings) {
   const std::shared_ptr<const Columns> columns = make_columns(medium);
-  ScatteringOrders orders(*columns, settings);
-  IncidentLight incident = orders.first_order();
-  Source order = orders.gather(incident);
-  Source sum = order;
-  std::vector<std::vector<glm::dvec4>> ground = incident.ground;
-  std::vector<OrderTail> tails(orders.groups(), OrderTail(settings));
-  const auto watch = [&] {
-    bool done = true;
-    for (int g = 0; g < orders.groups(); ++g) {
-      tails[g].add(order_sums(order[g], settings));
-      done &= tails[g].done();
-    }
-    return done;
-  };
-  bool done = watch();
-  while (!done) {
-    incident = orders.march(order, incident);
-    order = orders.gather(incident);
-    for (int g = 0; g < orders.groups(); ++g) {
-      add(sum[g], order[g]);
-      add(ground[g], incident.ground[g]);
-    }
-    done = watch();
-  }
-
   Tables tables{medium, settings, {}, {}, 0, {}, {}};
-  for (int g = 0; g < orders.groups(); ++g) {
-    add_tail(sum[g], order[g], tails[g].tail_factors(), settings);
-    const OrderSums factors = tails[g].ground_tail_factors();
-    // `incident` made `order`: its light on the ground is one order behind the source.
-    for (int row = 0; row < settings.sun_rows(); ++row)
-      ground[g][row] += incident.ground[g][row] * factors[row];
-    tables.source.push_back(rounded(sum[g]));
-    tables.ground_irradiance.push_back(rounded(ground[g]));
-    tables.orders = std::max(tables.orders, tails[g].orders());
-  }
-  for (size_t b = 0; b < medium.bands.size(); ++b) {
-    tables.last_addition.push_back(tails[b / 4].last_addition()[int(b % 4)]);
-    tables.tail_ratio.push_back(tails[b / 4].ratio()[int(b % 4)]);
-  }
+  tables.last_addition.resize(medium.bands.size());
+  tables.tail_ratio.resize(medium.bands.size());
+  for (int first = 0; first < tables.groups(); first += kGroupsAtOnce)
+    compute_groups(*columns, settings, first, std::min(kGroupsAtOnce, tables.groups() - first),
+                   tables);
   return tables;
 }
 
