@@ -106,21 +106,21 @@ TEST(Reference, BandsOnOnePathAgreeWithBandsByThemselves) {
   }
 }
 
-/// The mean of what paths find from an upward start with and without roulette.
+/// The mean of what paths find that start into the air over bright ground.
 struct Found {
   double mean = 0, error = 0;
 };
-Found found_with(double roulette_below, uint64_t seed) {
+Found found_with(const PathRules& rules, Angle sun_zenith, uint64_t seed) {
   const Medium medium = conservative(0.5);
   const Optics optics(medium);
-  Path path(optics, {.max_order = 8, .roulette_below = roulette_below});
+  Path path(optics, rules);
   PathRadiance found;
   double sum = 0, squares = 0;
   constexpr int kPaths = 30000;
   for (int i = 0; i < kPaths; ++i) {
     PathRandom random(seed, uint64_t(i));
     path.begin({0.5, {0, 0, 1}}, glm::normalize(glm::dvec3(1, 0.2, 0.3)),
-               glm::normalize(glm::dvec3(1, 0, 0.8)), i % 3, random, found);
+               {sin(sun_zenith), 0, cos(sun_zenith)}, i % 3, random, found);
     while (path.travel()) {
     }
     sum += found.all[1], squares += found.all[1] * found.all[1];
@@ -130,11 +130,37 @@ Found found_with(double roulette_below, uint64_t seed) {
 }
 
 TEST(Reference, RouletteIsWithoutBias) {
-  const Found without = found_with(0, 1);
-  for (const double below : {0.3, 1.0, 3.0}) {
-    const Found with = found_with(below, 2);
-    EXPECT_NEAR(with.mean, without.mean, 4 * std::hypot(with.error, without.error)) << below;
-    EXPECT_LT(with.error, 0.02 * with.mean);
+  for (const Angle sun : {50 * deg, 92 * deg}) {
+    const Found without = found_with({.max_order = 8, .roulette_below = 0}, sun, 1);
+    for (const double below : {0.3, 1.0, 3.0}) {
+      const Found with = found_with({.max_order = 8, .roulette_below = below}, sun, 2);
+      EXPECT_NEAR(with.mean, without.mean, 4 * std::hypot(with.error, without.error)) << below;
+      EXPECT_LT(with.error, 0.02 * with.mean);
+    }
+  }
+}
+
+TEST(Reference, TheGuideOfTwilightIsWithoutBiasAndHelps) {
+  // Roulette by expected light is off, for it needs the guide.
+  const PathRules without{.max_order = 5, .roulette_below = 0, .guide = false};
+  const PathRules with{.max_order = 5, .roulette_below = 0, .guide = true};
+  for (const Angle sun : {88 * deg, 94 * deg}) {
+    const Found plain = found_with(without, sun, 5), guided = found_with(with, sun, 6);
+    EXPECT_NEAR(guided.mean, plain.mean, 4 * std::hypot(guided.error, plain.error));
+    EXPECT_LT(guided.error, 0.05 * guided.mean);
+    if (sun > 90 * deg) {
+      EXPECT_LT(guided.error, 0.6 * plain.error);
+    }
+  }
+}
+
+TEST(Reference, DeepTwilightHasNoGaps) {
+  // Where sampling by density alone finds nothing at all; the shadow of the ground ends 190 km up.
+  const ReferenceAnswer answer = reference_answer(
+      reference_medium(), {1 * metre, 104 * deg, 0 * deg, 0 * deg}, {.samples = 20000});
+  for (size_t b = 0; b < 3; ++b) {
+    EXPECT_GT(answer.radiance[b], 1e-9);
+    EXPECT_LT(answer.radiance[b], 1e-7);
   }
 }
 

@@ -1,14 +1,16 @@
 #include "sky/monte_carlo/first_collision.h"
 
-#include <algorithm>
+#include <vector>
 
 namespace skylapse::sky::monte_carlo {
 namespace {
 
 constexpr int kCellsOfPiece = 32;
-/// Share of draws that follow single scattering; the others follow density times transmittance, so
-/// that multiply scattered light in the planet's shadow is found too.
-constexpr double kShareOfSunlight = 0.6;
+/// Shares of draws that follow single scattering, and the guide to multiply scattered light; the
+/// others follow density times transmittance.
+constexpr double kShareOfSunlight = 0.5, kShareOfGuide = 0.3;
+/// Sums below this are none: their reciprocals would overflow.
+constexpr double kLeastSum = 1e-250;
 
 }  // namespace
 
@@ -20,36 +22,32 @@ FirstCollision::FirstCollision(const Optics& optics, const Place& place,
       ray_(optics.shells.radius(), place.height, glm::dot(place.up, direction)) {
   optics.shells.follow(place.height, glm::dot(place.up, direction), trace_);
   optics.transmittances(trace_.total, through_);
-  Columns before;
-  for (const Trace::Piece& piece : trace_.pieces) {
-    const double step = (piece.end - piece.begin) / kCellsOfPiece;
-    for (int i = 0; i < kCellsOfPiece; ++i) {
-      const double begin = piece.begin + i * step;
-      cells_.push_back({begin, step, piece.shell, before, 0, 0});
-      before += shell_columns(optics.shells.shell(piece.shell), ray_, begin, begin + step);
-    }
-  }
+  cells_.cut(optics.shells, ray_, trace_, kCellsOfPiece);
   weigh(to_sun);
 }
 
 /// Each band has an equal say in where the paths go.
 void FirstCollision::weigh(const glm::dvec3& to_sun) {
   const int bands = optics_.bands;
-  std::vector<PerBand> sunlit(cells_.size()), natural(cells_.size());
-  PerBand sunlit_sum{}, natural_sum{}, transmittance;
+  std::vector<RayCells::Cell>& cells = cells_.cells();
+  std::vector<PerBand> sunlit(cells.size()), natural(cells.size());
+  std::vector<double> guide(cells.size());
+  PerBand sunlit_sum{}, natural_sum{}, guided_sum{}, transmittance;
   SunView sun;
-  for (size_t i = 0; i < cells_.size(); ++i) {
-    const Cell& cell = cells_[i];
+  const double nu = glm::dot(direction_, to_sun);
+  const double molecules = optics_.rayleigh_phase.at(nu);
+  const double particles = optics_.aerosol_phase.at(nu);
+  for (size_t i = 0; i < cells.size(); ++i) {
+    const RayCells::Cell& cell = cells[i];
     const double half = cell.length / 2;
     const Place middle = place_.moved(ray_.radius, direction_, cell.begin + half);
     const Columns density = optics_.shells.densities(middle.height);
-    const Columns to_middle = cell.before + shell_columns(optics_.shells.shell(cell.shell), ray_,
-                                                          cell.begin, cell.begin + half);
-    optics_.transmittances(to_middle, transmittance);
-    optics_.view_sun(middle.height, glm::dot(middle.up, to_sun), SunVisibility::smooth_step, sun);
-    const double nu = glm::dot(direction_, to_sun);
-    const double molecules = optics_.rayleigh_phase.at(nu);
-    const double particles = optics_.aerosol_phase.at(nu);
+    optics_.transmittances(cell.before + shell_columns(optics_.shells.shell(cell.shell), ray_,
+                                                       cell.begin, cell.begin + half),
+                           transmittance);
+    const double mu_sun = glm::dot(middle.up, to_sun);
+    optics_.view_sun(middle.height, mu_sun, SunVisibility::smooth_step, sun);
+    guide[i] = optics_.guide.importance(middle.height, mu_sun);
     for (int b = 0; b < bands; ++b) {
       const double r = optics_.rayleigh[b] * density.rayleigh;
       const double a = optics_.aerosol[b] * density.aerosol;
@@ -60,25 +58,18 @@ void FirstCollision::weigh(const glm::dvec3& to_sun) {
                                      : 0;
       natural_sum[b] += natural[i][b];
       sunlit_sum[b] += sunlit[i][b];
+      guided_sum[b] += natural[i][b] * guide[i];
     }
   }
-  double total = 0;
-  for (size_t i = 0; i < cells_.size(); ++i) {
-    for (int b = 0; b < bands; ++b) {
-      if (!(natural_sum[b] > 0)) continue;
-      const bool lit = sunlit_sum[b] > 0;
-      const double share = lit ? kShareOfSunlight : 0;
-      cells_[i].weight += (1 - share) * natural[i][b] / natural_sum[b];
-      if (lit) cells_[i].weight += share * sunlit[i][b] / sunlit_sum[b];
-    }
-    total += cells_[i].weight;
+  for (int b = 0; b < bands; ++b) {
+    if (!(natural_sum[b] > kLeastSum)) continue;
+    const double lit = sunlit_sum[b] > kLeastSum ? kShareOfSunlight / sunlit_sum[b] : 0;
+    const double guided = kShareOfGuide / guided_sum[b];
+    const double rest = (1 - kShareOfGuide - (lit > 0 ? kShareOfSunlight : 0)) / natural_sum[b];
+    for (size_t i = 0; i < cells.size(); ++i)
+      cells[i].weight += lit * sunlit[i][b] + (guided * guide[i] + rest) * natural[i][b];
   }
-  if (!(total > 0)) return cells_.clear();
-  double cumulative = 0;
-  for (Cell& cell : cells_) {
-    cell.weight /= total;
-    cell.cumulative = cumulative += cell.weight;
-  }
+  cells_.finish();
 }
 
 Place FirstCollision::ground() const {
@@ -88,11 +79,7 @@ Place FirstCollision::ground() const {
 }
 
 Place FirstCollision::sample(PathRandom& random, PerBand& factor) const {
-  const double u = random.uniform() * cells_.back().cumulative;
-  const auto found =
-      std::lower_bound(cells_.begin(), cells_.end(), u,
-                       [](const Cell& cell, double value) { return cell.cumulative < value; });
-  const Cell& cell = found != cells_.end() ? *found : cells_.back();
+  const RayCells::Cell& cell = cells_.draw(random);
   const double t = cell.begin + random.uniform() * cell.length;
   const Columns columns =
       cell.before + shell_columns(optics_.shells.shell(cell.shell), ray_, cell.begin, t);

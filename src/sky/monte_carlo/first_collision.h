@@ -1,8 +1,7 @@
 #pragma once
 // Where the first collision of all paths along one view ray is drawn: a table of the ray's cells,
-// made once, with most draws where the sun lights the ray and the rest where the air is dense.
-#include <vector>
-
+// made once, with most draws where the sun lights the ray, and the rest where light is to be
+// expected and where the air is dense.
 #include "sky/monte_carlo/path.h"
 
 namespace skylapse::sky::monte_carlo {
@@ -23,12 +22,6 @@ class FirstCollision {
   Place sample(PathRandom& random, PerBand& factor) const;
 
  private:
-  struct Cell {
-    double begin, length;
-    int shell;
-    Columns before;
-    double weight, cumulative;  // weights sum to 1; cumulative includes the cell's own
-  };
   void weigh(const glm::dvec3& to_sun);
 
   const Optics& optics_;
@@ -37,7 +30,7 @@ class FirstCollision {
   RayParabola ray_;
   Trace trace_;
   PerBand through_;
-  std::vector<Cell> cells_;
+  RayCells cells_;
 };
 
 }  // namespace skylapse::sky::monte_carlo

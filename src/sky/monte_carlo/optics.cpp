@@ -26,6 +26,13 @@ Optics::Optics(const atmosphere::Medium& medium)
     albedo[k] = band.ground_albedo;
     has_aerosol = has_aerosol || band.aerosol_scattering_per_km > 0;
   }
+  for (size_t b = 0; b < size_t(bands); ++b) {
+    mean_rayleigh += rayleigh[b] / bands;
+    mean_aerosol += aerosol[b] / bands;
+    mean_extinction_aerosol += extinction_aerosol[b] / bands;
+    mean_ozone += ozone[b] / bands;
+  }
+  guide = SunGuide(*this);
 }
 
 void Optics::view_sun(double height, double mu_sun, SunVisibility rule, SunView& view) const {

@@ -5,12 +5,9 @@
 #include "sky/monte_carlo/kernels.h"
 #include "sky/monte_carlo/phase.h"
 #include "sky/monte_carlo/shells.h"
+#include "sky/monte_carlo/sun_guide.h"
 
 namespace skylapse::sky::monte_carlo {
-
-inline constexpr int kMaxBands = 64;
-/// One number for each band; entries past the bands hold copies of the last.
-using PerBand = std::array<double, kMaxBands>;
 
 /// How much of the sun a point sees.
 enum class SunVisibility {
@@ -38,6 +35,9 @@ class Optics {
   AerosolPhase aerosol_phase;
   double sun_radius;  // rad
   bool has_aerosol;
+  /// Means over the bands: Rayleigh and aerosol scattering, and the three extinctions.
+  double mean_rayleigh = 0, mean_aerosol = 0, mean_extinction_aerosol = 0, mean_ozone = 0;
+  SunGuide guide;
 
   void transmittances(const Columns& columns, PerBand& out) const {
     kernel::transmittances(padded, rayleigh.data(), extinction_aerosol.data(), ozone.data(),
@@ -47,6 +47,11 @@ class Optics {
   [[nodiscard]] double depth(const Columns& c, int band) const {
     const auto b = size_t(band);
     return rayleigh[b] * c.rayleigh + extinction_aerosol[b] * c.aerosol + ozone[b] * c.ozone;
+  }
+
+  /// Optical depth at the mean coefficients.
+  [[nodiscard]] double mean_depth(const Columns& c) const {
+    return mean_rayleigh * c.rayleigh + mean_extinction_aerosol * c.aerosol + mean_ozone * c.ozone;
   }
 
   /// What a point at `height` sees of a sun at zenith cosine `mu_sun`. transmittance is not set

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "sky/monte_carlo/optics.h"
+#include "sky/monte_carlo/ray_cells.h"
 
 namespace skylapse::sky::monte_carlo {
 
@@ -32,6 +33,8 @@ struct PathRules {
   /// Paths whose weight fell below this share of the weight after their first event are ended by
   /// chance, the others made heavier; 0 ends none (then max_order must be set).
   double roulette_below = 1;
+  /// Where the sun is low, distances lead to where light is to be expected.
+  bool guide = true;
 };
 
 /// The path being traced, with its scratch; one a thread. `optics` must outlive it.
@@ -60,7 +63,15 @@ class Path {
     const AerosolPhase* shape = nullptr;
   };
   [[nodiscard]] Lobe lobe_at(const Place& place) const;
-  bool collide(double depth, bool forced);
+  /// A place on the traced way and the columns up to it.
+  struct Meeting {
+    double distance = 0;
+    Columns before;
+  };
+  [[nodiscard]] Meeting at_depth(double depth) const;
+  [[nodiscard]] double make_guide();
+  [[nodiscard]] double expected_light(const Place& place) const;
+  bool collide(const Meeting& at, bool forced, double chance_of_guide);
   void gather(int band, double value);
   bool normalise();
   bool go_on();
@@ -75,8 +86,10 @@ class Path {
   /// weight_: what the bands carry, over the mean probability density with which the bands would
   /// have made this path. density_: those densities, in units of their mean.
   PerBand weight_{}, density_{}, weight_at_first_{};
+  double light_at_first_ = 1;
   PerBand scratch_{}, rayleigh_{}, aerosol_{};
   Trace trace_;
+  RayCells guide_;
   SunView sun_;
 };
 
