@@ -89,7 +89,9 @@ const KeySpec kTurbidityKey{
     .max = "10",
     .default_text = "2.5",
     .example = "3",
-    .doc = "Preetham's turbidity: 2 very clear, 3 clear, 6 hazy, 10 dense haze."};
+    .doc =
+        "Preetham's turbidity: 2 very clear, 3 clear, 6 hazy, 10 dense haze. "
+        "Thicker air: visibility or aerosol_optical_depth."};
 const KeySpec kVisibilityKey{
     .name = "visibility",
     .kind = K::quantity,

@@ -86,6 +86,30 @@ void check_searched_days(const Section& time, const JobConfig& job, double days,
                   kMaxSearchedDays));
 }
 
+/// Keyframes without a day fall on every day of every site; anchored ones need its events.
+void check_keyframes(const Section& root, const JobConfig& job, double days,
+                     const ReadContext& context) {
+  const auto air = only_section(root, "air");
+  if (!air || job.air.keyframes.empty()) return;
+  const double everywhere = days * double(job.sites.size());
+  double instants = 0, searches = 0;
+  for (const AirKeyframe& keyframe : job.air.keyframes) {
+    const double count = keyframe.time.date ? double(job.sites.size()) : everywhere;
+    instants += count;
+    if (keyframe.time.anchor) searches += count;
+  }
+  if (instants > double(kMaxJobFrames))
+    context.errors.add(
+        air->place_of("keyframes"), fmt::format("the keyframes fall on {:.3g} moments", instants),
+        fmt::format("allowed: at most {} keyframes x days x locations", kMaxJobFrames));
+  if (searches > kMaxSearchedDays)
+    context.errors.add(
+        air->place_of("keyframes"),
+        fmt::format("the events of up to {:.6g} days would have to be found", searches),
+        fmt::format("allowed: at most {} keyframes x days x locations; use clock times",
+                    kMaxSearchedDays));
+}
+
 }  // namespace
 
 void check_frame_count(const Section& root, const JobConfig& job, const ReadContext& context) {
@@ -93,6 +117,7 @@ void check_frame_count(const Section& root, const JobConfig& job, const ReadCont
   if (!time) return;
   double days = job.time.dates.empty() ? 1 : 0;
   for (const DateRange& range : job.time.dates) days += days_in(range);
+  check_keyframes(root, job, days, context);
   const double per_day = frames_per_day(job.time);
   const double lists = double(job.sites.size()) * double(job.air.turbidity.size()) *
                        double(job.air.ground_albedo.size()) * double(job.cameras.size());

@@ -57,6 +57,13 @@ std::optional<double> HazeReader::turbidity(const Section& section, std::string_
                        fmt::format("allowed: 200 m to {}", length_text(greatest_visibility(air))));
     return std::nullopt;
   }
+  if (depth > sky::atmosphere::kMaxAerosolOpticalDepth) {
+    context.errors.add(
+        value.place,
+        fmt::format("{} makes an aerosol optical depth of {:.3g}", section.path_of(key), depth),
+        fmt::format("allowed: at most {}", sky::atmosphere::kMaxAerosolOpticalDepth));
+    return std::nullopt;
+  }
   const double turbidity = turbidity_from_aerosol_depth(depth);
   if (within_hosek_wilkie(turbidity) || !is_hosek_wilkie(model)) return turbidity;
   context.errors.add(

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "config/atmosphere_file.h"
 #include "config/key_spec.h"
 #include "config/value_reader.h"
 
@@ -100,6 +101,13 @@ std::string key_reference_markdown() {
   std::string text;
   std::vector<const SectionSpec*> done;
   append_section(job_spec(), "top level", text, done);
+  return text;
+}
+
+std::string atmosphere_reference_markdown() {
+  std::string text;
+  std::vector<const SectionSpec*> done;
+  append_section(atmosphere_spec(), "top level of an atmosphere", text, done);
   return text;
 }
 

@@ -1,13 +1,11 @@
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "config/air_presets.h"
 #include "config/build_job.h"
 #include "config/override.h"
+#include "config/text_file.h"
 #include "config/yaml_reader.h"
 
 namespace skylapse::config {
@@ -47,10 +45,6 @@ bool is_section(Node& root, ErrorList& errors) {
   return false;
 }
 
-Diagnostics unreadable(const std::string& path, std::string why, std::string hint) {
-  return {{ErrorCode::missing_input, fmt::format("{}: {}", path, why), {}, std::move(hint)}};
-}
-
 }  // namespace
 
 Result<JobConfig, Diagnostics> parse_job(const std::string& text, const std::string& name,
@@ -71,23 +65,9 @@ Result<JobConfig, Diagnostics> parse_job(const std::string& text, const std::str
 
 Result<JobConfig, Diagnostics> load_job(const std::string& path,
                                         const std::vector<Override>& overrides) {
-  std::error_code status;
-  if (!fs::exists(path, status))
-    return unreadable(path, "there is no such file", "check the name and the current folder");
-  if (fs::is_directory(path, status))
-    return unreadable(path, "this is a folder", "name the config file itself");
-  if (!fs::is_regular_file(path, status))  // reading a pipe would wait for its other end
-    return unreadable(path, "this is not a regular file", "save the config in a file and name it");
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    return unreadable(path, fmt::format("cannot be opened ({})", std::strerror(errno)),
-                      "check its permissions");
-  // One byte more than allowed is enough to know that it is too long.
-  std::string text(YamlLimits{}.bytes + 1, '\0');
-  file.read(text.data(), std::streamsize(text.size()));
-  if (file.bad()) return unreadable(path, "cannot be read", "check the disk it lies on");
-  text.resize(size_t(file.gcount()));
-  return parse_job(text, path, overrides);
+  const auto text = read_text_file(path, "config");
+  if (!text) return text.error();
+  return parse_job(*text, path, overrides);
 }
 
 }  // namespace skylapse::config

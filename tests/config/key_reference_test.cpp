@@ -29,7 +29,7 @@ void for_each_section(const SectionSpec& section, const auto& visit,
 void for_each_section(const auto& visit) {
   std::set<const SectionSpec*> seen;
   for_each_section(job_spec(), visit, seen);
-  EXPECT_EQ(seen.size(), 12u);
+  EXPECT_EQ(seen.size(), 15u);
 }
 
 TEST(KeyTable, EveryKeyIsExplainedAndNamedOnce) {
@@ -76,6 +76,15 @@ std::string summary(const JobConfig& job) {
       int(job.sky.fit), int(job.sky.solar_flux), job.sky.sun_disc, int(job.sky.sun_algorithm),
       int(camera.projection), int(camera.cube_layout), int(job.exposure.mode), job.exposure.ev,
       job.exposure.compensation, job.exposure.rate_limit, job.color.space, job.allow_outside_paths);
+  const auto& air = job.air.description;
+  text +=
+      fmt::format(" | {} {} {} {} {} {} {} {} {} {} {} {} | {} {} {} {}", air.aerosol_optical_depth,
+                  air.angstrom_exponent, air.aerosol_single_scattering_albedo, air.aerosol_g,
+                  air.aerosol_scale_height.in(km), air.stratospheric_optical_depth,
+                  air.stratospheric_bottom.in(km), air.stratospheric_top.in(km), air.ozone_du,
+                  air.surface_pressure.in(hPa), air.planet_radius.in(km), air.top_height.in(km),
+                  job.air.needs_atmosphere.has_value(), int(job.sky.model), int(job.sky.level),
+                  job.sky.wavelengths);
   for (const Output& output : job.outputs) {
     if (const auto* image = std::get_if<ImageOutput>(&output))
       text += fmt::format(" | {} {} {} {}", int(image->sample_type), int(image->sun_policy),
@@ -98,10 +107,11 @@ TEST(KeyTable, WritingADefaultChangesNothing) {
       if (key.default_text.empty() || name == "name" || name == "layout" || name == "ev" ||
           name == "rate_limit" || spec == "dates" || spec == "look_at")
         continue;
-      const std::string path = spec.empty() ? name
-                               : spec == "image output"
-                                   ? (name == "quality" ? "outputs.1." : "outputs.0.") + name
-                               : spec == "movie output" ? "outputs.2." + name
+      const std::string path =
+          spec.empty()             ? name
+          : spec == "image output" ? (name == "quality" ? "outputs.1." : "outputs.0.") + name
+          : spec == "movie output" ? "outputs.2." + name
+          : spec == "aerosol" || spec == "stratosphere" ? "air." + spec + "." + name
                                                         : spec + "." + name;
       const auto plain = parse_job(job_text, "job.yaml");
       const auto changed = parse_job(job_text, "job.yaml", {{path, std::string(key.default_text)}});
@@ -125,23 +135,30 @@ TEST(KeyTable, WritingADefaultChangesNothing) {
                 Dimension::exposure_rate));
 }
 
-/// Set SKYLAPSE_UPDATE_DOCS=1 to write the table anew.
-TEST(KeyTable, TheDocsHoldItAsItIs) {
+/// The generated part of docs/config.md between two markers. Set SKYLAPSE_UPDATE_DOCS=1 to write it
+/// anew.
+void expect_in_docs(const std::string& markers, const std::string& table) {
   const std::string file = SKYLAPSE_SOURCE_DIR "/docs/config.md";
-  const std::string begin = "<!-- key table: begin -->\n\n", end = "<!-- key table: end -->\n";
+  const std::string begin = "<!-- " + markers + ": begin -->\n\n",
+                    end = "<!-- " + markers + ": end -->\n";
   std::ostringstream stream;
   stream << std::ifstream(file).rdbuf();
   const std::string text = stream.str();
   const size_t first = text.find(begin), last = text.find(end);
   ASSERT_NE(first, std::string::npos) << file;
   ASSERT_NE(last, std::string::npos) << file;
-  const std::string table = text.substr(first + begin.size(), last - first - begin.size());
+  const std::string written = text.substr(first + begin.size(), last - first - begin.size());
   if (std::getenv("SKYLAPSE_UPDATE_DOCS") != nullptr)
-    std::ofstream(file) << text.substr(0, first + begin.size()) << key_reference_markdown()
-                        << text.substr(last);
+    std::ofstream(file) << text.substr(0, first + begin.size()) << table << text.substr(last);
   else
-    EXPECT_EQ(table, key_reference_markdown())
+    EXPECT_EQ(written, table)
         << "the table in docs/config.md is old: run this test with SKYLAPSE_UPDATE_DOCS=1";
+}
+
+TEST(KeyTable, TheDocsHoldItAsItIs) { expect_in_docs("key table", key_reference_markdown()); }
+
+TEST(AtmosphereKeyTable, TheDocsHoldItAsItIs) {
+  expect_in_docs("atmosphere key table", atmosphere_reference_markdown());
 }
 
 }  // namespace

@@ -75,14 +75,22 @@ TEST(Schema, RefusesWhatTheReaderRefuses) {
                             {"latitude: 50.0755 deg", "latitude: 14 E"},
                             {"latitude: 50.0755 deg", "# "},
                             {"date: 2026-06-21", "date: 21.6.2026"},
-                            {"from: sunrise - 45 min", "from: sunrize - 45 min"},
-                            {"from: sunrise - 45 min", "from: sunrise - 45"},
+                            {"from: nautical_dawn - 20 min", "from: nautical_down - 20 min"},
+                            {"from: nautical_dawn - 20 min", "from: nautical_dawn - 20"},
                             {"step: 4 min", "step: 4"},
                             {"step: 4 min", "step: 4 min\n  frames: 10"},
                             {"step: 4 min", "# no step"},
                             {"visibility: 40 km", "visibility: 40 km\n  turbidity: 3"},
                             {"visibility: 40 km", "turbidity: 11"},
                             {"visibility: 40 km", "turbidity: []"},
+                            {"visibility: 40 km", "preset: marsh"},
+                            {"visibility: 40 km", "ozone: 300"},
+                            {"visibility: 40 km", "aerosol: {g: 1}"},
+                            {"visibility: 40 km", "aerosol: {albedo: 1}"},
+                            {"visibility: 40 km", "stratosphere: {optical_depth: -1}"},
+                            {"visibility: 40 km", "keyframes: [{ozone: 300 DU}]"},
+                            {"visibility: 40 km", "keyframes: [{time: noon, ozone: 300 DU}]"},
+                            {"visibility: 40 km", "keyframes: {time: 06:00}"},
                             {"ground_albedo: grass", "ground_albedo: gras"},
                             {"ground_albedo: grass", "ground_albedo: 1.5"},
                             {"projection: perspective", "projection: perspektive"},
@@ -129,6 +137,16 @@ TEST(Schema, AcceptsWhatTheReaderAccepts) {
            {"outputs:",
             "air: {turbidity: [2, 3.5], ground_albedo: [0.2, snow], refraction: off}\noutputs:"},
            {"outputs:", "air:\nsky: {sun_disc: false}\noutputs:"},
+           {"outputs:",
+            "air: {preset: rural, visibility: 30 km, aerosol: {g: 0.8, scale_height: 2 km}, ozone: "
+            "350 DU}\noutputs:"},
+           {"outputs:",
+            "air: {stratosphere: {optical_depth: 0.1, bottom: 16 km}, surface_pressure: 990 hPa, "
+            "planet_radius: 6360 km, top_height: 60 km}\noutputs:"},
+           {"outputs:",
+            "air: {keyframes: [{time: 06:00, visibility: 9 km}, {time: sunset + 10 min, ozone: 350 "
+            "DU}]}\noutputs:"},
+           {"outputs:", "sky: {model: bruneton, level: draft, wavelengths: 3}\noutputs:"},
            {"outputs:", "title: 2026\noutputs:"}}) {
     const std::string good = with(kSmallJob, from, to);
     EXPECT_THAT(schema_violations(schema(), yaml_to_json(good)), ::testing::IsEmpty()) << to;

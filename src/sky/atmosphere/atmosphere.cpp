@@ -43,7 +43,7 @@ Status check_order(std::string_view lower_name, Length lower, std::string_view u
 
 Status check(const AirDescription& air) {
   const Limit limits[] = {
-      {"aerosol optical depth", air.aerosol_optical_depth, 0, 50, ""},
+      {"aerosol optical depth", air.aerosol_optical_depth, 0, kMaxAerosolOpticalDepth, ""},
       {"Angstrom exponent", air.angstrom_exponent, -1, 4, ""},
       {"aerosol single scattering albedo", air.aerosol_single_scattering_albedo, 0, 1, ""},
       {"aerosol g", air.aerosol_g, -0.99, 0.99, ""},

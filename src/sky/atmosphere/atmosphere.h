@@ -35,9 +35,12 @@ Medium medium_at(const Atmosphere& atmosphere, const std::vector<Wavelength>& ed
 /// Samples at wavelengths instead of means; xyz_weight is 0.
 Medium medium_sampled(const Atmosphere& atmosphere, const std::vector<Wavelength>& wavelengths);
 
+/// Air thicker than this is refused: no light that matters comes through.
+inline constexpr double kMaxAerosolOpticalDepth = 100;
+
 /// What a user says about the air, all at 550 nm where a wavelength matters.
 struct AirDescription {
-  double aerosol_optical_depth = 0.1;  // vertical, >= 0
+  double aerosol_optical_depth = 0.1;  // vertical, 0 to kMaxAerosolOpticalDepth
   double angstrom_exponent = 1.3;
   double aerosol_single_scattering_albedo = 0.92;
   double aerosol_g = 0.7;  // shape parameter of Cornette-Shanks
