@@ -48,33 +48,29 @@ struct Bin {
   double floor;  // of the eye's weight in means
 };
 
-/// Mean of `f` over a bin, weighted by what sun and eye make of each wavelength.
-template <class F>
-double weighted_mean(const Atmosphere& air, const Bin& bin, const F& f) {
-  double sum = 0, weights = 0;
-  for_each_cell(bin.from_nm, bin.to_nm, [&](double x, double width) {
-    const double weight = (air.solar_irradiance.at(x * nm) + 1e-30) * (eye(x) + bin.floor) * width;
-    sum += weight * f(x);
-    weights += weight;
-  });
-  return sum / weights;
-}
-
+/// Means over a bin, weighted by what sun and eye make of each wavelength.
 SpectralBand band_of(const Atmosphere& air, const Bin& bin) {
-  const auto mean = [&](const auto& f) { return weighted_mean(air, bin, f); };
-  const auto mean_of = [&](const Spectrum& spectrum) {
-    return mean([&](double x) { return spectrum.at(x * nm); });
-  };
   SpectralBand band;
-  band.wavelength_nm = mean([](double x) { return x; });
-  band.solar_irradiance = air.solar_irradiance.mean(bin.from_nm * nm, bin.to_nm * nm);
-  band.rayleigh_scattering_per_km = mean_of(air.rayleigh_scattering);
-  band.aerosol_extinction_per_km = mean_of(air.aerosol_extinction);
-  band.aerosol_scattering_per_km = mean([&](double x) {
-    return air.aerosol_extinction.at(x * nm) * air.aerosol_single_scattering_albedo.at(x * nm);
+  double weights = 0;
+  for_each_cell(bin.from_nm, bin.to_nm, [&](double x, double width) {
+    const Wavelength at = x * nm;
+    // Bins without sunlight still have means.
+    const double weight = (air.solar_irradiance.at(at) + 1e-30) * (eye(x) + bin.floor) * width;
+    const double extinction = air.aerosol_extinction.at(at);
+    weights += weight;
+    band.wavelength_nm += weight * x;
+    band.rayleigh_scattering_per_km += weight * air.rayleigh_scattering.at(at);
+    band.aerosol_extinction_per_km += weight * extinction;
+    band.aerosol_scattering_per_km +=
+        weight * extinction * air.aerosol_single_scattering_albedo.at(at);
+    band.ozone_absorption_per_km += weight * air.ozone_absorption.at(at);
+    band.ground_albedo += weight * air.ground_albedo.at(at);
   });
-  band.ozone_absorption_per_km = mean_of(air.ozone_absorption);
-  band.ground_albedo = mean_of(air.ground_albedo);
+  for (double* mean :
+       {&band.wavelength_nm, &band.rayleigh_scattering_per_km, &band.aerosol_extinction_per_km,
+        &band.aerosol_scattering_per_km, &band.ozone_absorption_per_km, &band.ground_albedo})
+    *mean /= weights;
+  band.solar_irradiance = air.solar_irradiance.mean(bin.from_nm * nm, bin.to_nm * nm);
   return band;
 }
 
