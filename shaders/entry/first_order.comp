@@ -20,7 +20,7 @@ void main() {
   for (int g = 0; g < GROUPS; ++g) sum[g] = vec4(0.0);
   for (int i = ray.first; i < ray.first + ray.count; ++i) {
     ListSample here = samples[i];
-    float mu_s = clamp(here.sun_scale * at.mu_s + here.nu_scale * at.nu, -1.0, 1.0);
+    float mu_s = sun_cosine(here, at.mu_s, at.nu);
     float visible = sun_visibility(here.height, mu_s);
     if (visible <= 0.0) continue;
     vec3 columns = columns_to_top(here.height, mu_s);

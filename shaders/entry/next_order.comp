@@ -18,10 +18,7 @@ void main() {
   for (int g = 0; g < GROUPS; ++g) sum[g] = vec4(0.0);
   for (int i = ray.first; i < ray.first + ray.count; ++i) {
     ListSample here = samples[i];
-    float mu_s = clamp(here.sun_scale * at.mu_s + here.nu_scale * at.nu, -1.0, 1.0);
-    SourceTexel texel;
-    texel.below = vec3(azimuth_coordinate(here.mu, mu_s, at.nu), sun_row_of(mu_s), here.slab);
-    texel.height_weight = here.height_weight;
+    SourceTexel texel = source_texel_of(here, sun_cosine(here, at.mu_s, at.nu), at.nu);
     for (int g = 0; g < GROUPS; ++g)
       sum[g] += source_at(g, texel) * scattering_weight[g * samples.length() + i];
   }

@@ -1,9 +1,26 @@
 // One node of a frame's slice an invocation: light of a range of band groups, projected to XYZ and
-// added to what the ranges before have left.
+// added to what the ranges before have left. What does not depend on the sun comes in lists, one a
+// row (src/sky/bruneton/slice_lists.h).
 layout(local_size_x = 32) in;
 
 #include "shared/physics_host.glsl"
+#include "shared/list_sample.glsl"
 
+struct SliceRow {
+  Ray ray;
+  float mu;                                    // at the camera
+  float whole_rayleigh, whole_aerosol, whole_ozone;  // columns of the whole ray [km]
+  int first, count;  // samples
+  int first_piece;   // row of the profile texture
+  int unused;
+};
+// A place where light is scattered into the row's rays.
+struct SliceSample {
+  ListSample place;
+  float view_rayleigh, view_aerosol, view_ozone;  // columns from the camera [km]
+  float rayleigh, aerosol;                        // density * length [km]
+  float unused_0, unused_1, unused_2;
+};
 struct SliceBlock {
   float mu_s;  // at the camera
   int azimuths, rows;
@@ -12,31 +29,125 @@ struct SliceBlock {
 };
 layout(std140, binding = 3) uniform SliceUniforms { SliceBlock slice; };
 layout(std140, binding = 4) uniform WeightBlock { vec4 xyz_weight[4 * GROUPS]; };  // per band
-layout(std430, binding = 1) readonly buffer RayBlock { Ray rays[]; };
-layout(std430, binding = 2) readonly buffer MuBlock { float row_mu[]; };  // at the camera
-layout(std430, binding = 3) buffer SmoothBlock { vec4 smooth_xyz[]; };    // [row][azimuth]
-layout(std430, binding = 4) buffer AerosolBlock { vec4 aerosol_xyz[]; };
+layout(std430, binding = 1) readonly buffer RowBlock { SliceRow rows[]; };
+layout(std430, binding = 2) readonly buffer SampleBlock { SliceSample samples[]; };
+// [group][sample]: transmittance * scattering * length
+layout(std430, binding = 3) readonly buffer ScatteringBlock { vec4 scattering_weight[]; };
+layout(std430, binding = 4) buffer SmoothBlock { vec4 smooth_xyz[]; };  // [row][azimuth]
+layout(std430, binding = 5) buffer AerosolBlock { vec4 aerosol_xyz[]; };
+// Columns from the camera along each piece of each ray, over s: t = length s^2 from the lower end.
+layout(binding = GROUPS + 1) uniform sampler2D profiles;
 
-vec4 project(int g, vec4 bands_light) {
-  return xyz_weight[4 * g] * bands_light.x + xyz_weight[4 * g + 1] * bands_light.y +
-         xyz_weight[4 * g + 2] * bands_light.z + xyz_weight[4 * g + 3] * bands_light.w;
+struct Sums {
+  vec4 rayleigh[GROUPS];
+  vec4 aerosol[GROUPS];
+  vec4 multiple[GROUPS];
+};
+
+Sums add_sunlight(Sums sums, float h, float mu_s, vec3 view, float rayleigh, float aerosol) {
+  float visible = sun_visibility(h, mu_s);
+  if (visible <= 0.0) return sums;
+  vec3 columns = view + columns_to_top(h, mu_s);
+  for (int g = 0; g < GROUPS; ++g) {
+    vec4 sunlight = exp(-optical_depth(band_group(g), columns)) * visible;
+    sums.rayleigh[g] += sunlight * rayleigh;
+    sums.aerosol[g] += sunlight * aerosol;
+  }
+  return sums;
+}
+
+// The ray by its list; with `sunlit` false multiple scattering alone.
+Sums listed_scattering(SliceRow row, SunOfRay sun, bool sunlit, Sums sums) {
+  for (int i = row.first; i < row.first + row.count; ++i) {
+    SliceSample here = samples[i];
+    float mu_s = sun_cosine(here.place, sun.mu_s, sun.nu);
+    if (sunlit)
+      sums = add_sunlight(sums, here.place.height, mu_s,
+                          vec3(here.view_rayleigh, here.view_aerosol, here.view_ozone),
+                          here.rayleigh, here.aerosol);
+    if (slice.multiple_scattering == 1) {
+      SourceTexel texel = source_texel_of(here.place, mu_s, sun.nu);
+      for (int g = 0; g < GROUPS; ++g)
+        sums.multiple[g] += source_at(g, texel) * scattering_weight[g * samples.length() + i];
+    }
+  }
+  return sums;
+}
+
+// A ray that enters or leaves the planet's shadow is cut there too, so no list fits.
+Sums shadowed_scattering(SliceRow row, SunOfRay sun, vec2 shadow, Sums sums) {
+  Ray ray = row.ray;
+  int nodes = int(air.march_samples);
+  int piece = 0;
+  float piece_begin = 0.0;
+  float begin = 0.0;
+  for (int part = 0; part < MAX_CUTS + 3; ++part) {
+    if (begin >= ray.length) break;
+    float end = next_cut(ray, shadow, begin);
+    float piece_end = piece < int(ray.cut_count) ? ray.cuts[piece] : ray.length;
+    bool rising = piece_begin >= ray.lowest - 1e-6 * ray.length;
+    float middle = 0.5 * (begin + end);
+    float h_middle = height_along(ray.height, ray.mu, middle);
+    float mu_s_middle = (radius_of(ray.height) * sun.mu_s + middle * sun.nu) / radius_of(h_middle);
+    bool lit = sun_visibility(h_middle, mu_s_middle) > 0.0;
+    for (int i = 0; i < (lit ? nodes : 0); ++i) {
+      vec2 node = fetch_gauss(i);
+      float away = (end - begin) * node.x * node.x;
+      float t = rising ? begin + away : end - away;
+      float s = sqrt(clamp((rising ? t - piece_begin : piece_end - t) / (piece_end - piece_begin), 0.0, 1.0));
+      vec2 size = vec2(textureSize(profiles, 0));
+      vec2 at = vec2(s * (size.x - 1.0) + 0.5, float(row.first_piece + piece) + 0.5) / size;
+      float h = height_along(ray.height, ray.mu, t);
+      float mu_s = (radius_of(ray.height) * sun.mu_s + t * sun.nu) / radius_of(h);
+      vec3 amount = densities(h) * (2.0 * node.x * node.y * (end - begin));
+      sums = add_sunlight(sums, h, clamp(mu_s, -1.0, 1.0), textureLod(profiles, at, 0.0).xyz,
+                          amount.x, amount.y);
+    }
+    if (end >= piece_end) {
+      ++piece;
+      piece_begin = piece_end;
+    }
+    begin = end;
+  }
+  return sums;
+}
+
+vec4 project(int g, vec4 light) {
+  return xyz_weight[4 * g] * light.x + xyz_weight[4 * g + 1] * light.y +
+         xyz_weight[4 * g + 2] * light.z + xyz_weight[4 * g + 3] * light.w;
 }
 
 void main() {
-  int item = int(gl_GlobalInvocationID.x);
-  if (item >= slice.azimuths * slice.rows) return;
-  int row = item / slice.azimuths;
-  Ray ray = rays[row];
-  float nu = cosine_to_sun(row_mu[row], slice.mu_s, slice_azimuth(item % slice.azimuths, slice.azimuths));
+  int azimuth = int(gl_GlobalInvocationID.x);
+  int row_index = int(gl_WorkGroupID.y);
+  if (azimuth >= slice.azimuths) return;
+  SliceRow row = rows[row_index];
+  Ray ray = row.ray;
+  float nu = cosine_to_sun(row.mu, slice.mu_s, slice_azimuth(azimuth, slice.azimuths));
   SunOfRay sun = sun_of_ray(ray, slice.mu_s, nu);
-  RayLight light = march(ray, sun, slice.multiple_scattering == 1);
+
+  Sums sums;
+  for (int g = 0; g < GROUPS; ++g) sums.rayleigh[g] = sums.aerosol[g] = sums.multiple[g] = vec4(0.0);
+  vec2 shadow = shadow_cuts(ray.height, ray.mu, sun.mu_s, nu);
+  bool shadowed = (shadow.x > 0.0 && shadow.x < ray.length) || (shadow.y > 0.0 && shadow.y < ray.length);
+  if (shadowed) sums = shadowed_scattering(row, sun, shadow, sums);
+  sums = listed_scattering(row, sun, !shadowed, sums);
+
+  int item = row_index * slice.azimuths + azimuth;
   vec4 smooth_sum = smooth_xyz[item];
   vec4 aerosol_sum = aerosol_xyz[item];
+  RayLight light = dark_ray();  // for the transmittance to the ground
   for (int g = 0; g < GROUPS; ++g) {
-    vec4 sum = light.rayleigh[g] * rayleigh_phase(nu) + light.multiple[g];
-    if (slice.ground == 1) sum += ground_through_air(g, ray, sun, light);
+    BandGroup band = band_group(g);
+    vec4 sum = sums.multiple[g] + sums.rayleigh[g] * rayleigh_phase(nu) *
+                                     (band.rayleigh_scattering * band.solar_irradiance);
+    if (slice.ground == 1) {
+      light.transmittance[g] = exp(-optical_depth(
+          band, vec3(row.whole_rayleigh, row.whole_aerosol, row.whole_ozone)));
+      sum += ground_through_air(g, ray, sun, light);
+    }
     smooth_sum += project(g, sum);
-    aerosol_sum += project(g, light.aerosol[g]);
+    aerosol_sum += project(g, sums.aerosol[g] * (band.aerosol_scattering * band.solar_irradiance));
   }
   smooth_xyz[item] = smooth_sum;
   aerosol_xyz[item] = aerosol_sum;

@@ -1,19 +1,13 @@
 #pragma once
 // The rays from the points of the tables, sampled by the host (src/sky/bruneton/march_buffers.h).
 
+#include "shared/list_sample.glsl"
+
 struct ListRay {
   int first, count;  // samples
   float mu;          // at the point
   float hits_ground;
   float ground_sun_scale, ground_nu_scale, unused_0, unused_1;
-};
-
-struct ListSample {
-  float sun_scale, nu_scale;  // mu_s there = sun_scale * mu_s + nu_scale * nu
-  float mu, height;           // km
-  float slab;                 // depth in the source texture at the height node below
-  float height_weight;        // of the node above
-  float unused_0, unused_1;
 };
 
 layout(std430, binding = 1) readonly buffer RayBlock { ListRay rays[]; };

@@ -44,11 +44,14 @@ class AnySlice : public gpu::AnyContext {
         {.multiple_scattering = content.multiple_scattering, .ground = content.ground});
     EXPECT_EQ(gl->aerosol_g, twin.aerosol_g);
     EXPECT_EQ(gl->sun_zenith_rad, twin.sun_zenith_rad);
-    // Float, and llvmpipe's exponential (1e-6): a hundred samples add up to a few 1e-5. In twilight
-    // the light of a sample falls by 1e-3 for each 1e-6 of the sun's cosine.
-    EXPECT_LT(distance(gl->smooth, twin.smooth), 1e-3)
+    // Float, and llvmpipe's exponential (1e-6): a hundred samples add up to a few 1e-5. The columns
+    // from the camera are better here than by the twin's three nodes between samples (1e-3 at the
+    // limb). Far below the horizon the twin also cuts multiple scattering at the shadow, GL
+    // does not: both are within 1e-2 of 64 samples there (bench_atmosphere --twin).
+    const double tolerance = sun > 100 * deg ? 1e-2 : 2e-3;
+    EXPECT_LT(distance(gl->smooth, twin.smooth), tolerance)
         << height.in(km) << " km, sun " << sun.in(deg);
-    EXPECT_LT(distance(gl->aerosol, twin.aerosol), 1e-3)
+    EXPECT_LT(distance(gl->aerosol, twin.aerosol), tolerance)
         << height.in(km) << " km, sun " << sun.in(deg);
   }
 };

@@ -8,6 +8,7 @@
 #include "gpu/program.h"
 #include "sky/bruneton/physics_buffers.h"
 #include "sky/bruneton/rays.h"
+#include "sky/bruneton/slice_lists.h"
 #include "sky/bruneton/twin.h"
 
 namespace skylapse::sky::bruneton {
@@ -107,13 +108,56 @@ QueryRays query_rays(const Columns& columns, const Query& query) {
 
 }  // namespace
 
+/// The rows of a slice on the context, kept from frame to frame.
+struct SliceBuffers {
+  gpu::Buffer rows, samples;
+  std::vector<gpu::Buffer> weights;  // per range of groups
+  gpu::Texture profiles;
+};
+
 struct GpuModel::State {
   std::shared_ptr<gpu::Context> context;
   atmosphere::Medium medium;
+  Settings settings;
   std::shared_ptr<const Columns> columns;
+  PhysicsData data;
   bool has_source = false;
   std::vector<Range> ranges;
+
+  /// Those of the last camera height and grid; only on the context's thread.
+  Result<const SliceBuffers*> slice_buffers(const gpu::Functions& gl, double height_km,
+                                            const SliceGrid& grid);
+
+ private:
+  double last_height_km_ = -1;
+  SliceGrid last_grid_;
+  SliceBuffers last_;
 };
+
+Result<const SliceBuffers*> GpuModel::State::slice_buffers(const gpu::Functions& gl,
+                                                           double height_km,
+                                                           const SliceGrid& grid) {
+  if (height_km == last_height_km_ && grid == last_grid_) return &last_;
+  const SliceLists lists = slice_lists(*columns, data, settings, height_km, grid);
+  SliceBuffers buffers;
+  buffers.rows = gpu::Buffer::of(gl, lists.rows);
+  buffers.samples = gpu::Buffer::of(gl, lists.samples);
+  const size_t groups = data.groups.size(), samples = lists.samples.size();
+  for (const Range& range : ranges) {
+    std::vector<glm::vec4> weights;
+    for (int g = range.groups.first; g < range.groups.first + range.groups.count; ++g)
+      for (size_t i = 0; i < samples; ++i) weights.emplace_back(lists.weights[i * groups + g]);
+    buffers.weights.push_back(gpu::Buffer::of(gl, weights));
+  }
+  const int nodes = SliceLists::kProfileNodes, pieces = int(lists.profiles.size()) / nodes;
+  auto profiles = gpu::Texture::create(gl, {nodes, pieces}, &lists.profiles[0][0]);
+  if (!profiles) return profiles.error();
+  buffers.profiles = std::move(profiles).value();
+  last_ = std::move(buffers);
+  last_height_km_ = height_km;
+  last_grid_ = grid;
+  return &last_;
+}
 
 Result<GpuModel> GpuModel::create(std::shared_ptr<gpu::Context> context, const Tables& tables) {
   auto state = std::make_shared<State>();
@@ -121,10 +165,11 @@ Result<GpuModel> GpuModel::create(std::shared_ptr<gpu::Context> context, const T
   state->medium = tables.medium;
   state->columns = make_columns(tables.medium);
   state->has_source = !tables.source.empty();
-  const PhysicsData data = physics_data(tables.medium, tables.settings, MarchSettings{}.samples);
+  state->settings = tables.settings;
+  state->data = physics_data(tables.medium, tables.settings, MarchSettings{}.samples);
   const Status status = state->context->run([&](const gpu::Functions& gl) -> Status {
     for (const GroupRange groups : group_ranges(tables.groups())) {
-      auto range = create_range(gl, tables, data, *state->columns, groups);
+      auto range = create_range(gl, tables, state->data, *state->columns, groups);
       if (!range) return range.error();
       state->ranges.push_back(std::move(range).value());
     }
@@ -136,13 +181,7 @@ Result<GpuModel> GpuModel::create(std::shared_ptr<gpu::Context> context, const T
 
 Result<SkySlice> GpuModel::slice(Length camera_height, Angle sun_zenith, const SliceGrid& grid,
                                  SliceContent content) const {
-  const State& state = *state_;
-  std::vector<float> rays, mu;
-  for (const SliceRow& row : slice_rows(*state.columns, camera_height.in(km), grid)) {
-    const std::vector<float> ray = floats_of_block(row.ray);
-    rays.insert(rays.end(), ray.begin(), ray.end());
-    mu.push_back(float(row.mu));
-  }
+  State& state = *state_;
   const SliceBlock block{float(cos(sun_zenith)), grid.azimuths,
                          grid.zeniths,           content.multiple_scattering && state.has_source,
                          content.ground,         {}};
@@ -152,18 +191,22 @@ Result<SkySlice> GpuModel::slice(Length camera_height, Angle sun_zenith, const S
   slice.aerosol.resize(count);
   const Status status = state.context->run([&](const gpu::Functions& gl) -> Status {
     const gpu::Buffer uniforms = gpu::Buffer::of_block(gl, block);
-    const gpu::Buffer ray_buffer = gpu::Buffer::of(gl, rays), mu_buffer = gpu::Buffer::of(gl, mu);
     const gpu::Buffer smooth = gpu::Buffer::create(gl, bytes),
                       aerosol = gpu::Buffer::create(gl, bytes);
-    for (const Range& range : state.ranges) {
+    const auto lists = state.slice_buffers(gl, camera_height.in(km), grid);
+    if (!lists) return lists.error();
+    for (size_t i = 0; i < state.ranges.size(); ++i) {
+      const Range& range = state.ranges[i];
       range.physics.bind(gl, range.source);
       uniforms.bind_uniform(gl, 3);
       range.xyz_weight.bind_uniform(gl, 4);
-      ray_buffer.bind_storage(gl, 1);
-      mu_buffer.bind_storage(gl, 2);
-      smooth.bind_storage(gl, 3);
-      aerosol.bind_storage(gl, 4);
-      range.slice.dispatch(gl, {gpu::groups_for(int(count), kGroupSize)});
+      (*lists)->rows.bind_storage(gl, 1);
+      (*lists)->samples.bind_storage(gl, 2);
+      (*lists)->weights[i].bind_storage(gl, 3);
+      (*lists)->profiles.bind(gl, unsigned(range.groups.count) + 1);
+      smooth.bind_storage(gl, 4);
+      aerosol.bind_storage(gl, 5);
+      range.slice.dispatch(gl, {gpu::groups_for(grid.azimuths, kGroupSize), grid.zeniths});
     }
     smooth.read(gl, 0, bytes, slice.smooth.data());
     aerosol.read(gl, 0, bytes, slice.aerosol.data());

@@ -5,23 +5,20 @@
 
 #include "gpu/functions.h"
 #include "sky/bruneton/harmonics.h"
+#include "sky/bruneton/slice_lists.h"
 
 namespace skylapse::sky::bruneton {
 namespace {
 
 using text::PI;
 
-// As in shaders/shared/march_list.glsl (std430).
+// As in shaders/shared/march_list.glsl.
 struct ListRay {
   int first, count;
   float mu, hits_ground;
   float ground_sun_scale, ground_nu_scale, unused[2];
 };
-struct ListSample {
-  float sun_scale, nu_scale, mu, height;
-  float slab, height_weight, unused[2];
-};
-static_assert(sizeof(ListRay) == 32 && sizeof(ListSample) == 32, "the layout of std430");
+static_assert(sizeof(ListRay) == 32, "the layout of std430");
 
 std::vector<ListRay> rays_of(const MarchLists& lists) {
   std::vector<ListRay> rays;
@@ -41,16 +38,9 @@ std::vector<ListRay> rays_of(const MarchLists& lists) {
 
 std::vector<ListSample> samples_of(const MarchLists& lists, const Settings& settings) {
   std::vector<ListSample> samples;
-  for (const MarchSample& sample : lists.samples) {
-    const text::Between height = text::between(sample.height_coordinate, settings.heights - 1);
-    samples.push_back({float(sample.sun_scale),
-                       float(sample.nu_scale),
-                       float(sample.mu),
-                       float(sample.height_km),
-                       float(sample.zenith_coordinate + height.node * settings.table_zeniths),
-                       float(height.weight),
-                       {}});
-  }
+  for (const MarchSample& sample : lists.samples)
+    samples.push_back(list_sample(sample.sun_scale, sample.nu_scale, sample.mu, sample.height_km,
+                                  sample.height_coordinate, sample.zenith_coordinate, settings));
   return samples;
 }
 

@@ -20,6 +20,8 @@ struct SliceGrid {
   double horizon_zenith_rad = 0;  // zenith angle of the geometric horizon, pi/2 plus its dip
   double sky_span_rad = 0;        // to the zenith, or to the top of the atmosphere from outside it
   double ground_span_rad = 0;     // to the nadir: pi - horizon_zenith
+
+  friend bool operator==(const SliceGrid&, const SliceGrid&) = default;
 };
 
 /// The grid of a camera at `height` (0 to far outside; asserted finite and >= 0).
