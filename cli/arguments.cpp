@@ -30,6 +30,19 @@ Error out_of_range(const std::string& value, const std::string& allowed) {
 
 }  // namespace
 
+Result<gpu::Backend> parse_backend(const std::string& name) {
+  if (name == "auto") return gpu::Backend::automatic;
+  if (name == "egl") return gpu::Backend::egl;
+  if (name == "osmesa") return gpu::Backend::osmesa;
+  return option_error("--backend", fmt::format("'{}' is unknown", name),
+                      "allowed: auto, egl, osmesa");
+}
+
+void add_backend_option(CLI::App& command, std::string& name) {
+  command.add_option("--backend", name,
+                     "OpenGL of the models that compute the atmosphere: auto, egl, osmesa");
+}
+
 Error option_error(const std::string& option, const std::string& message, const std::string& hint) {
   return {ErrorCode::invalid_input, option + ": " + message, {}, hint};
 }

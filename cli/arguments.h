@@ -1,10 +1,12 @@
 #pragma once
 // Values of the command line in the product's own types; errors name the option.
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <string>
 
 #include "astro/time/zone.h"
 #include "config/job_config.h"
+#include "gpu/context.h"
 
 namespace skylapse::cli {
 
@@ -24,6 +26,10 @@ Result<astro::Instant> parse_time(const std::string& option, const std::string& 
 Result<Duration> parse_step(const std::string& option, const std::string& text);
 
 Result<std::chrono::year_month_day> parse_day(const std::string& option, const std::string& text);
+
+/// "auto", "egl", "osmesa".
+Result<gpu::Backend> parse_backend(const std::string& name);
+void add_backend_option(CLI::App& command, std::string& name);
 
 /// An error that says which option is meant.
 Error option_error(const std::string& option, const std::string& message, const std::string& hint);

@@ -3,6 +3,7 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/csv.h"
+#include "cli/probe_atmosphere.h"
 #include "cli/table.h"
 #include "config/quantity_parser.h"
 #include "core/frames.h"
@@ -13,9 +14,8 @@ namespace {
 
 namespace hw = sky::hosek_wilkie;
 
-struct ProbeArguments {
-  std::string model, batch;
-};
+/// All options; Hosek-Wilkie takes the model and the batch alone.
+using ProbeArguments = AtmosphereProbeArguments;
 
 Result<Angle> angle_cell(const CsvTable& table, size_t row, const std::string& column) {
   const auto value = csv_number(table, row, column);
@@ -85,9 +85,10 @@ Result<std::vector<Cell>> answered_row(const CsvTable& table, size_t row) {
 }
 
 ExitCode run_probe(const ProbeArguments& arguments, const ConsoleOptions& console) {
+  if (is_atmosphere_model(arguments.model)) return run_atmosphere_probe(arguments, console);
   if (arguments.model != "hosek-wilkie")
     return report(option_error("--model", fmt::format("'{}' is unknown", arguments.model),
-                               "allowed: hosek-wilkie"));
+                               "allowed: hosek-wilkie, bruneton, single-scattering, reference"));
   const auto input = read_csv(arguments.batch);
   if (!input) return report(input.error());
   const Status complete =
@@ -107,14 +108,32 @@ ExitCode run_probe(const ProbeArguments& arguments, const ConsoleOptions& consol
 
 void add_probe_command(CLI::App& app, Session& session) {
   auto* command = add_command(app, session, "probe", "Radiance of a sky model at directions",
-                              "skylapse probe --model hosek-wilkie --batch queries.csv");
+                              "skylapse probe --model hosek-wilkie --batch queries.csv\n"
+                              "  skylapse probe --model bruneton --precision double --batch -");
   auto arguments = std::make_shared<ProbeArguments>();
-  command->add_option("--model", arguments->model, "hosek-wilkie")->required();
+  command
+      ->add_option("--model", arguments->model,
+                   "hosek-wilkie, bruneton, single-scattering, reference")
+      ->required();
   command
       ->add_option("--batch", arguments->batch,
                    "CSV with turbidity,albedo,sun_elevation_deg,view_zenith_deg,"
-                   "relative_azimuth_deg,band,kind[,gamma_deg]; - is standard input")
+                   "relative_azimuth_deg,band,kind[,gamma_deg]; of the other models "
+                   "sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,altitude_m,wavelength_nm; "
+                   "- is standard input")
       ->required();
+  command->add_option("--atmosphere", arguments->atmosphere,
+                      "Atmosphere file (YAML; default: the air of a config that says nothing)");
+  command->add_option("--level", arguments->level,
+                      "Tables of bruneton: draft, low, standard, fine (standard)");
+  command->add_option("--precision", arguments->precision,
+                      "float: OpenGL, double: CPU twin (float)");
+  add_backend_option(*command, arguments->backend);
+  command->add_option("--samples", arguments->samples,
+                      "Paths of reference (100000; with --relative-error at most 100000000)");
+  command->add_option("--relative-error", arguments->relative_error,
+                      "Paths of reference until the standard error is this share of the radiance");
+  command->add_option("--seed", arguments->seed, "Of reference (1)");
   command->callback([&session, arguments] {
     session.action = [&session, arguments] { return run_probe(*arguments, session.console); };
   });

@@ -60,9 +60,8 @@ nlohmann::ordered_json summary_json(const pipeline::RunSummary& summary) {
 }
 
 ExitCode run_render(const RenderArguments& arguments, const ConsoleOptions& console) {
-  if (arguments.backend != "auto" && arguments.backend != "egl" && arguments.backend != "osmesa")
-    return report(option_error("--backend", fmt::format("'{}' is unknown", arguments.backend),
-                               "allowed: auto, egl, osmesa"));
+  const auto backend = parse_backend(arguments.backend);
+  if (!backend) return report(backend.error());
   if (arguments.jobs < 0)
     return report(option_error("--jobs", fmt::format("{} is out of range", arguments.jobs),
                                "allowed: 0 (all cores) and more"));
@@ -81,6 +80,7 @@ ExitCode run_render(const RenderArguments& arguments, const ConsoleOptions& cons
   options.shard = work->shard;
   options.overwrite = arguments.overwrite;
   options.jobs = arguments.jobs;
+  options.backend = *backend;
   options.stop_signal = &g_signal;
   options.on_progress = [&](const pipeline::Progress& p) { progress->show(p); };
   const auto summary = pipeline::run_job(work->plan, options);
@@ -105,8 +105,7 @@ void add_render_command(CLI::App& app, Session& session) {
       "  skylapse render scene.yaml --set air.turbidity=4 --frames 1-240x10");
   auto arguments = std::make_shared<RenderArguments>();
   add_job_options(*command, arguments->job);
-  command->add_option("--backend", arguments->backend,
-                      "auto, egl, osmesa (models that run on GL; Hosek-Wilkie needs none)");
+  add_backend_option(*command, arguments->backend);
   command->add_option("-j,--jobs", arguments->jobs, "Threads (default: all cores)");
   command->add_flag("--overwrite", arguments->overwrite, "Render finished frames again");
   command->add_flag("--dry-run", arguments->dry_run, "Print the plan and stop");

@@ -1,26 +1,34 @@
 #include "plan/exposure_plan.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "color/exposure.h"
 #include "core/constants.h"
 #include "plan/sky_of_frame.h"
+#include "sky/bruneton/twin.h"
 #include "sky/twilight.h"
 
 namespace skylapse::plan {
+
+using sky::bruneton::Twin;
+
 namespace {
 
 /// The meter's EV of every frame, then followed inside each sequence.
 Status plan_metered(Plan& plan) {
   const color::ExposureSettings& settings = plan.job.exposure;
+  SkyMeter sky(plan);
   size_t begin = 0;
   while (begin < plan.frames.size()) {
     std::vector<color::MeteredFrame> meter;
     size_t end = begin;
     for (; end < plan.frames.size() && plan.frames[end].sequence == plan.frames[begin].sequence;
          ++end) {
-      auto light = model_sky_luminance(plan.job, plan.frames[end]);
+      auto light = sky.read(plan.frames[end]);
       if (!light) return light.error();
       const Duration since = plan.frames[end].instant - plan.frames[begin].instant;
       meter.push_back({since, color::metered_ev(*light)});
@@ -47,12 +55,57 @@ Luminance clear_sky_of(const config::JobConfig& job, const Frame& frame) {
 
 }  // namespace
 
-Result<Luminance> model_sky_luminance(const config::JobConfig& job, const Frame& frame) {
-  const auto sky = sky_of_frame(job, frame);
-  if (!sky) return sky.error();
+/// Twins of the media of the plan, in few bands.
+struct SkyMeter::Air {
+  config::JobConfig coarse;
+  bool single_scattering = false;
+  std::map<std::string, std::shared_ptr<const Twin>> twins;
+
+  const Twin& twin_of(const sky::atmosphere::Medium& medium) {
+    auto& twin = twins[canonical_text(medium)];
+    if (twin) return *twin;
+    sky::bruneton::Tables tables;
+    tables.medium = medium;
+    if (!single_scattering)
+      tables = precompute_twin(medium, settings_for(sky::bruneton::Level::draft, medium));
+    twin = std::make_shared<const Twin>(
+        std::make_shared<const sky::bruneton::Tables>(std::move(tables)));
+    return *twin;
+  }
+
+  /// Horizontal Y by the sky at 1 au.
+  double sky_y(const sky::atmosphere::Medium& medium, const Frame& frame) {
+    const auto bands = twin_of(medium).irradiance(Length{}, 90 * deg - frame.sun.elevation).sky;
+    double y = 0;
+    for (size_t b = 0; b < bands.size(); ++b) y += bands[b] * medium.bands[b].xyz_weight.y;
+    return y;
+  }
+};
+
+SkyMeter::SkyMeter(const Plan& plan) : plan_(plan), air_(std::make_unique<Air>()) {
+  if (is_hosek_wilkie(plan.model)) return;
+  air_->coarse = plan.job;
+  air_->coarse.sky.wavelengths = kMeterBands;
+  air_->single_scattering = plan.model == config::SkyModel::single_scattering;
+}
+
+SkyMeter::~SkyMeter() = default;
+
+Result<Luminance> SkyMeter::read(const Frame& frame) {
   const double level = frame.sun.twilight_level * frame.sun.distance_factor;
-  const double illuminance = kLuminousEfficacy * sky->diffuse_irradiance_xyz().y * level;
-  return illuminance / std::numbers::pi * cd_per_m2;
+  const auto luminance = [&](double sky_y) {
+    return kLuminousEfficacy * sky_y * level / std::numbers::pi * cd_per_m2;
+  };
+  if (is_hosek_wilkie(plan_.model)) {
+    const auto sky = sky_of_frame(plan_.job, frame);
+    if (!sky) return sky.error();
+    return luminance(sky->diffuse_irradiance_xyz().y);
+  }
+  const auto media = tables_of_frame(air_->coarse, plan_.air, frame);
+  if (!media) return media.error();
+  double y = air_->sky_y(media->a, frame);
+  if (media->weight > 0) y = std::lerp(y, air_->sky_y(media->b, frame), media->weight);
+  return luminance(y);
 }
 
 Status plan_exposure(Plan& plan) {

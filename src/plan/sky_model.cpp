@@ -88,8 +88,9 @@ astro::RefractionConditions refraction_at(const config::JobConfig& job, const co
                                           SkyModel model) {
   constexpr double kScaleHeightKm = 8.4;  // of the pressure near the ground, US standard atmosphere
   astro::RefractionConditions air = job.air.refraction;
-  const bool left_at_default = air.pressure == astro::RefractionConditions{}.pressure;
-  if (is_hosek_wilkie(model) || !left_at_default || site.position.height <= kNearGround) return air;
+  if (is_hosek_wilkie(model) || job.air.observer_pressure_given ||
+      site.position.height <= kNearGround)
+    return air;
   air.pressure *= std::exp(-site.position.height.in(km) / kScaleHeightKm);
   return air;
 }

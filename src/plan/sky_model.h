@@ -43,9 +43,9 @@ Length camera_height(const config::Site& site);
 /// minus the dip above it.
 Angle horizon_elevation(Length height, Length planet_radius);
 
-/// Refraction at a site. air.pressure is that at the observer; where it is left at its default, the
-/// pressure of sea level, a camera above kNearGround in a computed atmosphere has what its height
-/// leaves of it: exp(-height / 8.4 km).
+/// Refraction at a site. air.pressure is that at the observer; where the config does not give it, a
+/// camera above kNearGround in a computed atmosphere has what its height leaves of the pressure of
+/// sea level: exp(-height / 8.4 km).
 astro::RefractionConditions refraction_at(const config::JobConfig& job, const config::Site& site,
                                           config::SkyModel model);
 

@@ -80,6 +80,7 @@ std::string small_scene(const std::string& outputs, const std::string& time) {
          "}\n"
          "camera: {projection: perspective, look_at: {azimuth: 60 deg, elevation: 10 deg}, fov: 80 "
          "deg, size: 160x90}\n"
+         "sky: {model: hosek-wilkie}\n"
          "outputs: [" +
          outputs + "]\n";
 }

@@ -30,7 +30,7 @@ std::filesystem::path fresh_folder();
 /// Writes a text file and returns its path.
 std::filesystem::path write_text(const std::filesystem::path& file, const std::string& text);
 
-/// A valid scene of a few small frames; `outputs` in YAML flow style.
+/// A valid scene of a few small frames of the model that needs no GL; `outputs` in YAML flow style.
 std::string small_scene(const std::string& outputs, const std::string& time = "");
 
 }  // namespace skylapse::cli::testing

@@ -16,6 +16,20 @@ std::vector<std::filesystem::path> examples() {
   return files;
 }
 
+/// The quickest tables, and of the frames that need them a few: the examples' own settings are for
+/// pictures.
+std::vector<long> quick_frames(plan::Plan& plan) {
+  std::vector<long> frames(plan.frames.size());
+  std::iota(frames.begin(), frames.end(), 1L);
+  if (plan::is_hosek_wilkie(plan.model)) return frames;
+  plan.job.sky.level = sky::bruneton::Level::draft;
+  plan.job.sky.wavelengths = 3;
+  std::vector<long> few;
+  for (size_t i = 0; i < 5; ++i) few.push_back(frames[(frames.size() - 1) * i / 4]);
+  few.erase(std::unique(few.begin(), few.end()), few.end());
+  return few;
+}
+
 /// Shrinks the cameras to about 64 pixels, shapes kept.
 void shrink(plan::Plan& plan) {
   for (auto& camera : plan.job.cameras) {
@@ -44,10 +58,12 @@ TEST_P(Examples, RendersSmallFromFirstToLastFrame) {
   ASSERT_TRUE(plan.ok());
   shrink(*plan);
   const TemporaryFolder folder;
-  const auto summary = run_job(*plan, options_for(*plan, folder.path()));
+  RunOptions options = options_for(*plan, folder.path());
+  options.frames = quick_frames(*plan);
+  const auto summary = run_job(*plan, options);
   ASSERT_TRUE(summary.ok()) << format_error(summary.error());
-  EXPECT_EQ(summary->rendered, long(plan->frames.size()));
-  EXPECT_TRUE(summary->complete);
+  EXPECT_EQ(summary->rendered, long(options.frames.size()));
+  EXPECT_EQ(summary->complete, options.frames.size() == plan->frames.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Configs, Examples, ::testing::ValuesIn(examples()),

@@ -24,8 +24,10 @@ inline plan::Plan plan_of_text(const std::string& text) {
   return *std::move(plan);
 }
 
-/// Six small frames from before sunrise into the day; `outputs` in YAML flow style.
-inline std::string small_scene(const std::string& outputs, const std::string& more = "") {
+/// Six small frames from before sunrise into the day, by the model that needs no GL unless `more`
+/// has a sky of its own; `outputs` in YAML flow style.
+inline std::string small_scene(const std::string& outputs, std::string more = "") {
+  if (more.find("sky:") == std::string::npos) more += "\nsky: {model: hosek-wilkie}";
   return "location: {name: Prague, latitude: 50.0755, longitude: 14.4378, height: 235 m}\n"
          "time: {zone: Europe/Prague, date: 2026-06-21, from: sunrise - 20 min, to: sunrise + 30 "
          "min, "

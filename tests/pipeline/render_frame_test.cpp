@@ -14,14 +14,18 @@ namespace {
 
 std::string scene(const std::string& time, const std::string& camera,
                   const std::string& more = "") {
+  const bool has_sky = more.find("sky:") != std::string::npos;
   return "location: {name: Prague, latitude: 50.0755, longitude: 14.4378, height: 235 m}\n"
          "time: {zone: Europe/Prague, date: 2026-06-21, " +
-         time + "}\ncamera: {" + camera + "}\n" + more + "\noutputs: [{image: \"p.####.exr\"}]\n";
+         time + "}\ncamera: {" + camera + "}\n" + (has_sky ? "" : "sky: {model: hosek-wilkie}\n") +
+         more + "\noutputs: [{image: \"p.####.exr\"}]\n";
 }
 
 RenderedFrame render(const plan::Plan& plan, size_t frame) {
   StageTimes times;
-  auto rendered = render_frame(plan, plan.frames[frame], false, times);
+  AtmosphereService atmospheres(plan, gpu::Backend::automatic);
+  auto rendered = render_frame(plan, plan.frames[frame], atmospheres, false, times);
+  EXPECT_FALSE(atmospheres.record()) << "Hosek-Wilkie needs no GL";
   EXPECT_TRUE(rendered.ok());
   return *std::move(rendered);
 }
@@ -79,7 +83,7 @@ TEST(RenderFrame, BrightnessNeverJumpsFromMinuteToMinute) {
       scene("from: sunset - 30 min, to: sunset + 90 min, step: 1 min",
             "projection: fisheye, look_at: {azimuth: 0 deg, elevation: 90 deg}, fov: 90 deg, "
             "size: 9x9",
-            "sky: {sun_disc: off}"));
+            "sky: {model: hosek-wilkie, sun_disc: off}"));
   double last = 0;
   for (size_t f = 0; f < plan.frames.size(); ++f) {
     const auto frame = render(plan, f);

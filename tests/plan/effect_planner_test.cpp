@@ -8,7 +8,7 @@ using namespace skylapse::plan::testing;
 namespace {
 
 bool on(const plan::Plan& plan, size_t frame, plan::Effect effect) {
-  for (const auto& decision : plan::decide_effects(plan.job, plan.frames[frame]))
+  for (const auto& decision : plan::decide_effects(plan, plan.frames[frame]))
     if (decision.effect == effect) {
       EXPECT_FALSE(decision.reason.empty());
       return decision.on;

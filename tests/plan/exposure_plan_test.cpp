@@ -40,7 +40,7 @@ TEST(ExposurePlan, SunCurveKeepsThePicturesBrightnessSmoothThroughSunrise) {
   const auto plan = plan_of(scene);
   double last = 0;
   for (size_t i = 0; i < plan.frames.size(); ++i) {
-    const double l = plan::model_sky_luminance(plan.job, plan.frames[i])->in(cd_per_m2);
+    const double l = plan::SkyMeter(plan).read(plan.frames[i])->in(cd_per_m2);
     const double shown = std::log2(l * color::exposure_scale_per_cd_m2(plan.frames[i].ev));
     if (i > 0) {
       EXPECT_LT(std::abs(shown - last), 0.25 * 0.2) << format_local(plan.frames[i].local);
@@ -57,8 +57,9 @@ TEST(ExposurePlan, MeteredExposureKeepsItsRateLimit) {
 
 TEST(ExposurePlan, TheMeterReadsTheModelsOwnSky) {
   const auto plan = plan_of(whole_day("mode: metered, rate_limit: 100"));
+  plan::SkyMeter meter(plan);
   for (const auto& frame : plan.frames) {
-    const auto light = plan::model_sky_luminance(plan.job, frame);
+    const auto light = meter.read(frame);
     ASSERT_TRUE(light.ok());
     EXPECT_NEAR(frame.ev, color::metered_ev(*light), 1e-12);
   }
@@ -69,7 +70,7 @@ TEST(ExposurePlan, NoonSkyLuminanceIsThatOfAClearSky) {
   auto scene = whole_day("mode: metered");
   scene.time = "time: {zone: Europe/Prague, date: 2026-06-21, at: [solar_noon]}";
   const auto plan = plan_of(scene);
-  const double l = plan::model_sky_luminance(plan.job, plan.frames[0])->in(cd_per_m2);
+  const double l = plan::SkyMeter(plan).read(plan.frames[0])->in(cd_per_m2);
   EXPECT_GT(l, 3000);
   EXPECT_LT(l, 8000);
 }
