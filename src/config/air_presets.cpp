@@ -33,21 +33,31 @@ void fill(Node& section, const Node& from, const SectionSpec& spec) {
   }
 }
 
+std::string hyphenated(std::string_view name) {
+  std::string word(name);
+  std::replace(word.begin(), word.end(), ' ', '-');
+  return word;
+}
+
 }  // namespace
 
 const std::vector<std::string_view>& preset_names() {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> all;
-    for (const auto& preset : kPresetTexts) all.push_back(preset.first);
+  static const std::vector<std::string> spellings = [] {
+    std::vector<std::string> all;
+    for (const auto& [name, text] : kPresetTexts) {
+      all.emplace_back(name);
+      if (name.find(' ') != std::string_view::npos) all.push_back(hyphenated(name));
+    }
     std::sort(all.begin(), all.end());
     return all;
   }();
+  static const std::vector<std::string_view> names(spellings.begin(), spellings.end());
   return names;
 }
 
 std::string_view preset_text(std::string_view name) {
   for (const auto& preset : kPresetTexts)
-    if (preset.first == name) return preset.second;
+    if (preset.first == name || hyphenated(preset.first) == name) return preset.second;
   return {};
 }
 

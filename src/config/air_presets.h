@@ -8,7 +8,8 @@
 
 namespace skylapse::config {
 
-/// Names of the presets, sorted: the files' names without ".yaml", "_" as a blank.
+/// Names of the presets, sorted: the files' names without ".yaml", "_" as a blank, and as a hyphen
+/// in a second spelling.
 const std::vector<std::string_view>& preset_names();
 
 /// The text of a preset: keys of the section `air`; empty if there is no such preset.

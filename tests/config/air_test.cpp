@@ -93,7 +93,7 @@ TEST(AirOfAJob, FirstKeyThatNeedsAnAtmosphereIsNamed) {
 
 TEST(Presets, AreTheFilesOfTheirFolderAndAllAreAir) {
   EXPECT_THAT(preset_names(), ElementsAre("clear", "dusty", "maritime", "mountain", "rural",
-                                          "urban", "volcanic dusk"));
+                                          "urban", "volcanic dusk", "volcanic-dusk"));
   for (const std::string_view name : preset_names()) {
     const JobConfig job = job_with("air: {preset: " + std::string(name) + "}\n");
     const auto atmosphere = sky::atmosphere::atmosphere_of(job.air.description);
@@ -135,7 +135,7 @@ TEST(Presets, WorkFromTheCommandLine) {
 TEST(Presets, UnknownOnesShowTheNearest) {
   EXPECT_EQ(error_after("air: {preset: rual}\n"),
             "5 [rual] air.preset = rual is not known | allowed: clear, dusty, maritime, "
-            "mountain, rural, urban, volcanic dusk; did you mean rural?");
+            "mountain, rural, urban, volcanic dusk, volcanic-dusk; did you mean rural?");
   EXPECT_THAT(error_after("air: {preset: {a: 1}}\n"), StartsWith("5 [{] air.preset is a section"));
 }
 
