@@ -124,7 +124,7 @@ Truth truth_of(const HardMedium& hard, const Options& options) {
   std::ofstream file(name);
   for (const auto& values : truth)
     for (const Value& value : values)
-      file << fmt::format("{:a} {:a}\n", value.radiance, value.error);
+      file << fmt::format("{:.17g} {:.17g}\n", value.radiance, value.error);
   return truth;
 }
 

@@ -11,6 +11,7 @@
 #include <limits>
 #include <thread>
 
+#include "sky/bruneton/table_file.h"
 #include "support/temporary_folder.h"
 
 namespace skylapse::sky::bruneton {
@@ -88,6 +89,46 @@ TEST_F(TableCacheTest, GivesBackEveryNumberThatWasStored) {
   EXPECT_EQ(std::distance(fs::directory_iterator(cache_.folder()), {}), 1);
 }
 
+TEST_F(TableCacheTest, RowsBetweenTheSunNodesAreRefilledToTheBit) {
+  Tables tables = sample_tables();
+  tables.settings.sun_rows_per_interval = 8;
+  const size_t rows = size_t(tables.settings.sun_rows()), source = 4 * 3 * 6 * rows * 5;
+  for (auto& group : tables.source) group.resize(source);
+  for (auto& group : tables.ground_irradiance) group.resize(4 * rows);
+  float next = 0;
+  for (auto& group : tables.source)
+    for (float& number : group) number = std::exp(5 * std::sin(next += 0.7F));
+  ASSERT_TRUE(cache_.store(tables, "all rows").ok());
+  refill_sun_rows(tables);
+  ASSERT_TRUE(cache_.store(tables, "nodes").ok());
+  const auto size = [&](const char* maker) {
+    return fs::file_size(cache_.path_of(tables.medium, tables.settings, maker));
+  };
+  EXPECT_LT(5 * size("nodes"), size("all rows"));
+  const auto found = cache_.find(tables.medium, tables.settings, "nodes");
+  ASSERT_TRUE(found);
+  expect_equal(*found, tables);
+}
+
+TEST_F(TableCacheTest, RefillingKeepsTheNodesAndIsDoneOnce) {
+  Tables tables = sample_tables();
+  const Tables before = tables;
+  refill_sun_rows(tables);
+  const size_t row = 4 * 5, per = size_t(tables.settings.sun_rows_per_interval);
+  for (size_t sun = 0; sun < size_t(tables.settings.suns); ++sun)
+    for (size_t i = 0; i < row; ++i)
+      EXPECT_EQ(tables.source[0][sun * per * row + i], before.source[0][sun * per * row + i]);
+  const Tables once = tables;
+  refill_sun_rows(tables);
+  expect_equal(tables, once);
+}
+
+TEST_F(TableCacheTest, TablesOfWrongSizeAreNotKept) {
+  Tables tables = sample_tables();
+  tables.source[1].pop_back();
+  EXPECT_FALSE(cache_.store(tables).ok());
+}
+
 TEST_F(TableCacheTest, TellsMediaSettingsAndMakersApart) {
   const Tables tables = sample_tables();
   ASSERT_TRUE(cache_.store(tables, "a driver").ok());
@@ -140,7 +181,7 @@ TEST_F(TableCacheTest, TruncatedAndLengthenedFilesAreNoticed) {
   ASSERT_TRUE(cache_.store(tables).ok());
   const fs::path path = cache_.path_of(tables.medium, tables.settings);
   const std::string good = contents(path);
-  for (const size_t size : {size_t{0}, size_t{10}, size_t{216}, good.size() / 2, good.size() - 1}) {
+  for (const size_t size : {size_t{0}, size_t{10}, size_t{224}, good.size() / 2, good.size() - 1}) {
     overwrite(path, good.substr(0, size));
     EXPECT_FALSE(find(cache_, tables)) << size;
   }

@@ -109,7 +109,7 @@ std::optional<Tables> TableCache::find(const atmosphere::Medium& medium, const S
 }
 
 Status TableCache::store(const Tables& tables, const std::string& maker) const {
-  if (!enabled() || tables.bytes() > limit_) return Done{};
+  if (!enabled()) return Done{};
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error)
@@ -126,6 +126,13 @@ Status TableCache::store(const Tables& tables, const std::string& maker) const {
 void TableCache::evict(const fs::path& newest) const {
   remove_stale_table_temporaries(folder_);
   std::vector<Kept> files = kept_files(folder_);
+  // Larger than all room by itself: the others stay.
+  for (const Kept& file : files)
+    if (file.path == newest && file.bytes > limit_) {
+      std::error_code ignored;
+      fs::remove(file.path, ignored);
+      return;
+    }
   std::sort(files.begin(), files.end(), [&](const Kept& a, const Kept& b) {
     const bool a_newest = a.path == newest, b_newest = b.path == newest;
     if (a_newest != b_newest) return b_newest;

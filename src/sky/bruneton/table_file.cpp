@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cerrno>
@@ -14,16 +15,18 @@
 #include <fstream>
 #include <span>
 #include <system_error>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/sha256.h"
+#include "sky/bruneton/sun_rows.h"
 
 namespace skylapse::sky::bruneton {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr char kMagic[8] = {'S', 'K', 'Y', 'T', 'A', 'B', 'L', 'E'};
-constexpr uint32_t kFormat = 1;
+constexpr uint32_t kFormat = 2;
 constexpr const char* kTemporarySuffix = ".tmp";
 constexpr size_t kDigits = 64;
 
@@ -35,11 +38,13 @@ struct Header {
   int32_t orders;
   uint32_t bands;
   uint32_t groups;
+  uint32_t rows;  // of the sun, stored: all, or those at the nodes
+  uint32_t unused;
   char key[kDigits];
   char checksum[kDigits];  // of all sections' checksums, in their order
   char header_checksum[kDigits];
 };
-static_assert(sizeof(Header) == 24 + 3 * kDigits);
+static_assert(sizeof(Header) == 32 + 3 * kDigits);
 
 std::string checksum_of(Header header) {
   std::memset(header.header_checksum, 0, kDigits);
@@ -69,20 +74,89 @@ std::string checksum_of(const std::vector<Bytes>& parts) {
   return sha256_hex(joined);
 }
 
-/// Tables of the right sizes, to be filled.
-Tables empty_tables(const atmosphere::Medium& medium, const Settings& settings) {
+size_t size_of(int n) { return size_t(n > 0 ? n : 0); }
+
+/// Tables of the right sizes, to be filled; `rows` of the sun.
+Tables empty_tables(const atmosphere::Medium& medium, const Settings& settings, size_t rows) {
   Tables tables;
   tables.medium = medium;
   tables.settings = settings;
-  const auto size = [](int n) { return size_t(n > 0 ? n : 0); };
-  const size_t rows = size(settings.sun_rows());
-  const size_t source = 4 * size(settings.heights) * size(settings.table_zeniths) * rows *
-                        size(settings.table_azimuths);
-  tables.source.assign(size(tables.groups()), std::vector<float>(source));
-  tables.ground_irradiance.assign(size(tables.groups()), std::vector<float>(4 * rows));
+  const size_t source = 4 * size_of(settings.heights) * size_of(settings.table_zeniths) * rows *
+                        size_of(settings.table_azimuths);
+  tables.source.assign(size_of(tables.groups()), std::vector<float>(source));
+  tables.ground_irradiance.assign(size_of(tables.groups()), std::vector<float>(4 * rows));
   tables.last_addition.assign(medium.bands.size(), 0);
   tables.tail_ratio.assign(medium.bands.size(), 0);
   return tables;
+}
+
+/// The rows at the sun nodes alone, in tables of as many rows.
+Tables nodes_of(const Tables& tables) {
+  const Settings& settings = tables.settings;
+  const size_t suns = size_of(settings.suns), rows = size_of(settings.sun_rows());
+  Tables nodes = empty_tables(tables.medium, settings, suns);
+  nodes.orders = tables.orders;
+  nodes.last_addition = tables.last_addition;
+  nodes.tail_ratio = tables.tail_ratio;
+  const auto pick = [&](const std::vector<float>& from, std::vector<float>& to) {
+    const size_t slabs = rows > 0 ? size_of(settings.heights) * size_of(settings.table_zeniths) : 0;
+    const size_t count = from.size() == 4 * rows ? 1 : slabs;
+    const size_t width = from.size() / (rows * count);
+    for (size_t slab = 0; slab < count; ++slab)
+      for (size_t sun = 0; sun < suns; ++sun)
+        std::copy_n(&from[(slab * rows + sun * size_t(settings.sun_rows_per_interval)) * width],
+                    width, &to[(slab * suns + sun) * width]);
+  };
+  for (size_t g = 0; g < tables.source.size(); ++g) {
+    pick(tables.source[g], nodes.source[g]);
+    pick(tables.ground_irradiance[g], nodes.ground_irradiance[g]);
+  }
+  return nodes;
+}
+
+/// All rows of `slabs` tables of sun rows, `width` numbers a row, from those at the nodes.
+void rows_of(const std::vector<float>& nodes, std::vector<float>& rows, size_t slabs, size_t width,
+             const Settings& settings, bool dark_end) {
+  const size_t suns = size_of(settings.suns), count = size_of(settings.sun_rows());
+  parallel_for_ranges(slabs, 8, [&](size_t begin, size_t end) {
+    std::vector<double> in(suns * width), out(count * width);
+    for (size_t slab = begin; slab < end; ++slab) {
+      std::copy_n(&nodes[slab * suns * width], suns * width, in.begin());
+      upsample_suns(in.data(), width, out.data(), width, int(width), settings, dark_end);
+      for (size_t i = 0; i < out.size(); ++i) rows[slab * count * width + i] = float(out[i]);
+    }
+  });
+}
+
+/// Tables with all rows from those at the nodes.
+Tables expanded(Tables&& nodes) {
+  const Settings& settings = nodes.settings;
+  const bool dark_end = sun_warp(nodes.medium).dark_end;
+  const size_t slabs = size_of(settings.heights) * size_of(settings.table_zeniths);
+  Tables tables = empty_tables(nodes.medium, settings, size_of(settings.sun_rows()));
+  tables.orders = nodes.orders;
+  tables.last_addition = nodes.last_addition;
+  tables.tail_ratio = nodes.tail_ratio;
+  for (size_t g = 0; g < nodes.source.size(); ++g) {
+    rows_of(nodes.source[g], tables.source[g], slabs, 4 * size_of(settings.table_azimuths),
+            settings, dark_end);
+    rows_of(nodes.ground_irradiance[g], tables.ground_irradiance[g], 1, 4, settings, dark_end);
+  }
+  return tables;
+}
+
+bool right_sizes(const Tables& tables) {
+  const Tables right =
+      empty_tables(tables.medium, tables.settings, size_of(tables.settings.sun_rows()));
+  const auto same = [](const auto& a, const auto& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const auto& x, const auto& y) { return x.size() == y.size(); });
+  };
+  return same(tables.source, right.source) &&
+         same(tables.ground_irradiance, right.ground_irradiance) &&
+         tables.last_addition.size() == right.last_addition.size() &&
+         tables.tail_ratio.size() == right.tail_ratio.size() && tables.settings.suns >= 2 &&
+         tables.settings.sun_rows_per_interval >= 1;
 }
 
 bool all_finite(const Tables& tables) {
@@ -126,17 +200,24 @@ fs::path temporary_of(const fs::path& path) {
 
 }  // namespace
 
+void refill_sun_rows(Tables& tables) { tables = expanded(nodes_of(tables)); }
+
 Status write_tables(const fs::path& path, const std::string& key, const Tables& tables) {
-  if (!all_finite(tables))
-    return Error{ErrorCode::internal, "tables with a number that is not finite", {}, {}};
+  if (!right_sizes(tables) || !all_finite(tables))
+    return Error{ErrorCode::internal, "tables of wrong size, or not of finite numbers", {}, {}};
+  Tables nodes = nodes_of(tables);
+  const Tables again = expanded(Tables(nodes));
+  const bool nodes_suffice =
+      again.source == tables.source && again.ground_irradiance == tables.ground_irradiance;
   // The sections are only read here.
-  const std::vector<Bytes> parts = sections(const_cast<Tables&>(tables));
+  const std::vector<Bytes> parts = sections(nodes_suffice ? nodes : const_cast<Tables&>(tables));
   Header header{};
   std::memcpy(header.magic, kMagic, sizeof kMagic);
   header.format = kFormat;
   header.orders = tables.orders;
   header.bands = uint32_t(tables.medium.bands.size());
   header.groups = uint32_t(tables.source.size());
+  header.rows = uint32_t(nodes_suffice ? tables.settings.suns : tables.settings.sun_rows());
   std::memcpy(header.key, key.data(), std::min(key.size(), kDigits));
   std::memcpy(header.checksum, checksum_of(parts).data(), kDigits);
   std::memcpy(header.header_checksum, checksum_of(header).data(), kDigits);
@@ -158,14 +239,15 @@ std::optional<Tables> read_tables(const fs::path& path, const std::string& key,
   std::ifstream file(path, std::ios::binary);
   Header header{};
   if (!file.read(reinterpret_cast<char*>(&header), sizeof header)) return std::nullopt;
-  Tables tables = empty_tables(medium, settings);
   const auto is = [](const char* digits, const std::string& expected) {
     return expected.size() == kDigits && std::memcmp(digits, expected.data(), kDigits) == 0;
   };
   if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0 || header.format != kFormat ||
       !is(header.header_checksum, checksum_of(header)) || !is(header.key, key) ||
-      header.bands != medium.bands.size() || header.groups != uint32_t(tables.groups()))
+      header.bands != medium.bands.size() || header.groups != (medium.bands.size() + 3) / 4 ||
+      (header.rows != uint32_t(settings.suns) && header.rows != uint32_t(settings.sun_rows())))
     return std::nullopt;
+  Tables tables = empty_tables(medium, settings, header.rows);
   tables.orders = header.orders;
   const std::vector<Bytes> parts = sections(tables);
   for (const Bytes part : parts)
@@ -173,7 +255,8 @@ std::optional<Tables> read_tables(const fs::path& path, const std::string& key,
       return std::nullopt;
   if (file.peek() != std::ifstream::traits_type::eof()) return std::nullopt;
   if (!is(header.checksum, checksum_of(parts))) return std::nullopt;
-  return tables;
+  return header.rows == uint32_t(settings.sun_rows()) ? std::move(tables)
+                                                      : expanded(std::move(tables));
 }
 
 void remove_stale_table_temporaries(const fs::path& folder) {
