@@ -86,6 +86,23 @@ void check_searched_days(const Section& time, const JobConfig& job, double days,
                   kMaxSearchedDays));
 }
 
+/// Days on which keyframes without a day fall: those of the job, or all between the times that
+/// carry a day of their own.
+double keyframe_days(const TimePlan& time, double days) {
+  if (!time.dates.empty()) return days;
+  std::vector<std::chrono::sys_days> own;
+  const auto add = [&](const TimeExpression& t) {
+    if (t.date) own.emplace_back(*t.date);
+  };
+  if (time.from) add(*time.from);
+  if (time.to) add(*time.to);
+  if (const auto* list = std::get_if<ExplicitTimes>(&time.sampling))
+    for (const TimeExpression& t : list->times) add(t);
+  if (own.empty()) return days;
+  const auto [first, last] = std::minmax_element(own.begin(), own.end());
+  return double((*last - *first).count()) + 1;
+}
+
 /// Keyframes without a day fall on every day of every site; anchored ones need its events.
 void check_keyframes(const Section& root, const JobConfig& job, double days,
                      const ReadContext& context) {
@@ -117,7 +134,7 @@ void check_frame_count(const Section& root, const JobConfig& job, const ReadCont
   if (!time) return;
   double days = job.time.dates.empty() ? 1 : 0;
   for (const DateRange& range : job.time.dates) days += days_in(range);
-  check_keyframes(root, job, days, context);
+  check_keyframes(root, job, keyframe_days(job.time, days), context);
   const double per_day = frames_per_day(job.time);
   const double lists = double(job.sites.size()) * double(job.air.turbidity.size()) *
                        double(job.air.ground_albedo.size()) * double(job.cameras.size());

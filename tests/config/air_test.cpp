@@ -274,6 +274,10 @@ TEST(Keyframes, TooManyAreRefusedBeforeAnythingIsSearched) {
   EXPECT_THAT(errors_of(with(long_job, "step: 10 min", "at: 12:00") +
                         "air: {keyframes: [{time: sunrise, ozone: 310 DU}]}\n"),
               ElementsAre(HasSubstr("the events of up to 36525 days would have to be found")));
+  const std::string far_apart =
+      with(kSmallJob, "date: 2026-06-21, step: 10 min", "at: [1900-01-01 12:00, 2199-12-31 12:00]");
+  EXPECT_THAT(errors_of(far_apart + "air: {keyframes: [{time: sunrise, ozone: 310 DU}]}\n"),
+              ElementsAre(HasSubstr("the events of up to 109573 days would have to be found")));
   std::string keyframes;
   for (int i = 0; i < 30; ++i)
     keyframes +=
