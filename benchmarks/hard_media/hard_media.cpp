@@ -1,10 +1,12 @@
 // Where tables are hard put: thick haze, a white ground, strongly forward scattering aerosol. The
 // CPU twin at the settings that the rules choose, against the path tracer, from 1 m to 40 km.
 //
-//   hard_media [--level standard] [--error 0.01] [--medium NAME] [--truth FILE]
+//   hard_media [--level standard] [--error 0.01] [--medium NAME] [--truth FILE] [--set
+//   KEY=VALUE]...
 //
 // --truth keeps the path tracer's values in a file (written if it is not there), so that another
-// setting is judged in seconds. Prints one line a medium and one an altitude.
+// setting is judged in seconds; --set changes one number of the settings (heights=40). Prints one
+// line a medium, altitude and sun.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -94,7 +96,28 @@ struct Options {
   bruneton::Level level = bruneton::Level::standard;
   double error = 0.01;
   std::string medium, truth;
+  std::vector<std::pair<std::string, double>> changes;  // of the settings
 };
+
+bool change(bruneton::Settings& s, const std::string& key, double value) {
+  const std::pair<const char*, int*> numbers[] = {
+      {"heights", &s.heights},
+      {"suns", &s.suns},
+      {"sun_rows_per_interval", &s.sun_rows_per_interval},
+      {"directions_up", &s.directions_up},
+      {"directions_down", &s.directions_down},
+      {"azimuths", &s.azimuths},
+      {"harmonics", &s.harmonics},
+      {"table_azimuths", &s.table_azimuths},
+      {"table_zeniths", &s.table_zeniths},
+      {"samples", &s.samples},
+      {"first_order_samples", &s.first_order_samples},
+      {"max_orders", &s.max_orders}};
+  for (const auto& [name, number] : numbers)
+    if (key == name) return *number = int(value), true;
+  if (key == "stop_below") return s.stop_below = value, true;
+  return false;
+}
 
 Truth trace(const atmosphere::Medium& medium, double error) {
   Truth truth;
@@ -162,7 +185,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 void judge(const HardMedium& hard, const Options& options) {
-  const bruneton::Settings settings = bruneton::settings_for(options.level, hard.medium);
+  bruneton::Settings settings = bruneton::settings_for(options.level, hard.medium);
+  for (const auto& [key, value] : options.changes) change(settings, key, value);
   auto start = std::chrono::steady_clock::now();
   const auto tables =
       std::make_shared<const bruneton::Tables>(bruneton::precompute_twin(hard.medium, settings));
@@ -224,6 +248,10 @@ int main(int argc, char** argv) {
       options.medium = value;
     else if (key == "--truth")
       options.truth = value;
+    else if (bruneton::Settings trial; key == "--set" && value.find('=') != std::string::npos &&
+                                       change(trial, value.substr(0, value.find('=')), 1))
+      options.changes.emplace_back(value.substr(0, value.find('=')),
+                                   std::stod(value.substr(value.find('=') + 1)));
     else
       return fmt::print(stderr, "unknown option {} {}\n", key, value), 2;
   }
