@@ -106,6 +106,8 @@ TEST(SunWarp, OfASmallPlanetReachesItsMidnight) {
   EXPECT_NEAR(warp.zenith_at(0), 0, 1e-12);
 }
 
+/// What a bilinear lookup may be off: 1.5 % where a layer's edge lies between two heights, which
+/// is 0.1 % of light (SingleScattering); 0.2 % of the air's own column near the ground.
 TEST(Columns, OfTheTableAgreeWithQuadrature) {
   const Columns columns(atmosphere::reference_medium());
   PhysicsData data = physics_data(columns.medium(), Settings{}, 2);
@@ -117,7 +119,8 @@ TEST(Columns, OfTheTableAgreeWithQuadrature) {
       const glm::dvec3 exact = columns.paths().columns_to_top(h, mu);
       const glm::dvec3 table = text.columns_to_top(h, mu);
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(table[c], exact[c], 0.004 * exact[c] + 0.01) << h << ' ' << mu;
+        EXPECT_NEAR(table[c], exact[c], 0.015 * exact[c] + 0.01) << h << ' ' << mu;
+      if (h < 1) EXPECT_NEAR(table.x, exact.x, 0.002 * exact.x) << h << ' ' << mu;
     }
 }
 
