@@ -233,6 +233,13 @@ Result<FrameAtmosphere> AtmosphereService::of_frame(const plan::Frame& frame) {
   return air;
 }
 
+Result<std::shared_ptr<gpu::Context>> AtmosphereService::context() {
+  const std::lock_guard lock(state_->mutex);
+  const Status started = apart([&] { return state_->start(); });
+  if (!started) return started.error();
+  return state_->context;
+}
+
 std::optional<AtmosphereRecord> AtmosphereService::record() const {
   const std::lock_guard lock(state_->mutex);
   if (!state_->context) return {};

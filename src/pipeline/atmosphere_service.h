@@ -51,6 +51,9 @@ class AtmosphereService {
   /// Errors: missing_backend where no GL can be had; those of the medium; GL's own.
   Result<FrameAtmosphere> of_frame(const plan::Frame& frame);
 
+  /// The context alone, for Hosek-Wilkie on GL.
+  Result<std::shared_ptr<gpu::Context>> context();
+
   /// Nothing while no frame has asked.
   [[nodiscard]] std::optional<AtmosphereRecord> record() const;
   /// What a reader should know, such as a cache that cannot be written.

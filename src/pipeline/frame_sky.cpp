@@ -5,11 +5,14 @@
 #include "plan/sky_of_frame.h"
 #include "sky/bruneton/slice_image.h"
 #include "sky/hosek_wilkie/sky_image.h"
+#include "sky/hosek_wilkie/sky_image_gpu.h"
 
 namespace skylapse::pipeline {
 namespace {
 
-Result<FrameSky> hosek_wilkie_sky(const plan::Plan& plan, const plan::Frame& frame) {
+/// On the CPU, or on `context`, which is not null for the model on GL.
+Result<FrameSky> hosek_wilkie_sky(const plan::Plan& plan, const plan::Frame& frame,
+                                  const std::shared_ptr<gpu::Context>& context) {
   auto made = plan::sky_of_frame(plan.job, frame);
   if (!made) return made.error();
   const auto sky = std::make_shared<const sky::hosek_wilkie::Sky>(*std::move(made));
@@ -18,10 +21,13 @@ Result<FrameSky> hosek_wilkie_sky(const plan::Plan& plan, const plan::Frame& fra
   FrameSky out;
   out.sky_irradiance_xyz = sky->diffuse_irradiance_xyz() * level;
   out.fill = [=](const image::Camera& camera, const glm::dmat3& xyz_to_rgb,
-                 image::FrameBuffer& scene) {
+                 image::FrameBuffer& scene) -> Status {
     const glm::dvec3 ground_rgb = xyz_to_rgb * (sky->ground_radiance_xyz() * level);
-    sky::hosek_wilkie::render_sky(
-        camera, {sky.get(), sun.direction, xyz_to_rgb, level, glm::max(ground_rgb, 0.0)}, scene);
+    const sky::hosek_wilkie::ImageInputs inputs{sky.get(), sun.direction, xyz_to_rgb, level,
+                                                glm::max(ground_rgb, 0.0)};
+    if (context) return sky::hosek_wilkie::render_sky_gpu(*context, camera, inputs, scene);
+    sky::hosek_wilkie::render_sky(camera, inputs, scene);
+    return Done{};
   };
   out.disc = {frame.sky.sun_apparent, frame.sky.sun_radius, [=](Angle view_elevation, double limb) {
                 return sky->disc_radiance_xyz(view_elevation, limb) * sun.distance_factor;
@@ -37,9 +43,10 @@ Result<FrameSky> atmosphere_sky(const plan::Frame& frame, AtmosphereService& atm
   FrameSky out;
   out.sky_irradiance_xyz = air->sky_irradiance_xyz * sun.distance_factor;
   out.fill = [=](const image::Camera& camera, const glm::dmat3& xyz_to_rgb,
-                 image::FrameBuffer& scene) {
+                 image::FrameBuffer& scene) -> Status {
     sky::bruneton::render_slice(
         camera, {&air->slice, sun.direction, xyz_to_rgb, sun.distance_factor}, scene);
+    return Done{};
   };
   out.disc = {sun.direction, frame.sky.sun_radius,
               [=](Angle view_elevation, double limb) {
@@ -54,7 +61,12 @@ Result<FrameSky> atmosphere_sky(const plan::Frame& frame, AtmosphereService& atm
 
 Result<FrameSky> sky_of(const plan::Plan& plan, const plan::Frame& frame,
                         AtmosphereService& atmospheres) {
-  if (plan::is_hosek_wilkie(plan.model)) return hosek_wilkie_sky(plan, frame);
+  if (plan.model == config::SkyModel::hosek_wilkie) return hosek_wilkie_sky(plan, frame, nullptr);
+  if (plan.model == config::SkyModel::hosek_wilkie_gl) {
+    const auto context = atmospheres.context();
+    if (!context) return context.error();
+    return hosek_wilkie_sky(plan, frame, *context);
+  }
   return atmosphere_sky(frame, atmospheres);
 }
 

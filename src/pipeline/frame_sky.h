@@ -14,7 +14,8 @@ namespace skylapse::pipeline {
 /// Sky, ground and sun of one frame, at the sun's distance.
 struct FrameSky {
   /// Fills an image of the camera's size with all but the disc, in the space of `xyz_to_rgb`.
-  std::function<void(const image::Camera&, const glm::dmat3& xyz_to_rgb, image::FrameBuffer&)> fill;
+  std::function<Status(const image::Camera&, const glm::dmat3& xyz_to_rgb, image::FrameBuffer&)>
+      fill;
   glm::dvec3 sky_irradiance_xyz{0};  // horizontal, without the disc
   sky::SunDisc disc;                 // in XYZ
 };

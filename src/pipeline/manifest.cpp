@@ -191,9 +191,10 @@ ordered_json computed_by_json(const JobContext& job) {
           {"tables", tables}};
 }
 
-/// Nothing for a model that computes none.
+/// Nothing for the model that runs without GL.
 ordered_json atmosphere_json(const JobContext& job) {
-  if (plan::is_hosek_wilkie(job.plan.model)) return nullptr;
+  if (job.plan.model == config::SkyModel::hosek_wilkie) return nullptr;
+  if (plan::is_hosek_wilkie(job.plan.model)) return {{"computed_by", computed_by_json(job)}};
   const config::Sky& sky = job.plan.job.sky;
   return {{"level", sky::bruneton::name_of(sky.level)},
           {"wavelengths", sky.wavelengths},

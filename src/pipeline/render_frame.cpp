@@ -35,7 +35,8 @@ Result<RenderedFrame> render_frame(const plan::Plan& plan, const plan::Frame& fr
   {
     const StageTimer timer(times, Stage::sky);
     out.scene = image::FrameBuffer(camera.width, camera.height);
-    sky->fill(camera, xyz_to_rgb, out.scene);
+    const Status filled = sky->fill(camera, xyz_to_rgb, out.scene);
+    if (!filled) return filled.error();
   }
   if (keep_without_disc) out.scene_without_disc = out.scene;
 

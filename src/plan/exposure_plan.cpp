@@ -1,6 +1,5 @@
 #include "plan/exposure_plan.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -41,15 +40,15 @@ Status plan_metered(Plan& plan) {
 }
 
 /// The clear sky that the sun curve exposes for: a function of the sun's elevation over the horizon
-/// that the camera sees, continued below it as light fades on the ground, so that the picture's
-/// brightness follows smoothly.
-Luminance clear_sky_of(const config::JobConfig& job, const Frame& frame) {
+/// that the camera sees, which fades as the picture does, so that its brightness follows smoothly.
+Luminance clear_sky_of(const Plan& plan, const Frame& frame) {
   const Angle over = elevation(frame.sky.sun_apparent) - frame.horizon;
-  const Luminance sky = sky::mean_clear_sky_luminance(std::clamp(over, 0 * deg, 90 * deg));
-  if (over >= 0 * deg) return sky;
+  if (!is_hosek_wilkie(plan.model)) return sky::mean_computed_sky_luminance(over);
+  const Luminance sky = sky::mean_clear_sky_luminance(frame.sun.elevation);
+  if (!frame.sun.extrapolated) return sky;
   const Illuminance at_horizon = std::numbers::pi * sky.in(cd_per_m2)*lux;
-  return sky * sky::twilight_level(elevation(frame.sky.sun_true) - frame.horizon,
-                                   true_elevation_of_apparent_horizon(job.air.refraction),
+  return sky * sky::twilight_level(elevation(frame.sky.sun_true),
+                                   true_elevation_of_apparent_horizon(plan.job.air.refraction),
                                    at_horizon);
 }
 
@@ -114,7 +113,7 @@ Status plan_exposure(Plan& plan) {
   for (Frame& frame : plan.frames) {
     frame.ev = settings.ev;
     if (settings.mode == color::ExposureMode::sun_curve)
-      frame.ev = color::sun_curve_ev(clear_sky_of(plan.job, frame));
+      frame.ev = color::sun_curve_ev(clear_sky_of(plan, frame));
     frame.ev -= settings.compensation;
   }
   return Done{};

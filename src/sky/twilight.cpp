@@ -119,6 +119,21 @@ MonotoneCurve make_sky_curve() {
   return curve;
 }
 
+/// log10 of the illuminance by the sky alone, in lux, of the computed atmosphere.
+MonotoneCurve make_computed_sky_curve() {
+  constexpr std::array<std::array<double, 2>, 30> kLux{
+      {{-18, 1.342e-05}, {-16, 0.0001059}, {-14, 0.0008108}, {-13, 0.002521}, {-12, 0.006041},
+       {-11, 0.016},     {-10, 0.0417},    {-9, 0.1083},     {-8, 0.3094},    {-7, 0.958},
+       {-6, 3.068},      {-5, 9.936},      {-4, 32.28},      {-3, 97.15},     {-2, 246.8},
+       {-1, 514.6},      {0, 918.1},       {1, 1461},        {2, 2124},       {3, 2850},
+       {5, 4313},        {7, 5652},        {10, 7356},       {15, 9543},      {20, 11180},
+       {30, 13450},      {45, 15490},      {60, 16650},      {75, 17260},     {90, 17460}}};
+  MonotoneCurve curve;
+  for (const auto& [elevation_deg, sky_lux] : kLux) curve.add(elevation_deg, std::log10(sky_lux));
+  curve.fit();
+  return curve;
+}
+
 }  // namespace
 
 Illuminance clear_sky_illuminance(Angle true_sun_elevation) {
@@ -128,6 +143,13 @@ Illuminance clear_sky_illuminance(Angle true_sun_elevation) {
 Luminance mean_clear_sky_luminance(Angle sun_elevation) {
   static const MonotoneCurve curve = make_sky_curve();
   return std::pow(10.0, curve.at(sun_elevation.in(deg))) / std::numbers::pi * cd_per_m2;
+}
+
+Luminance mean_computed_sky_luminance(Angle sun_elevation) {
+  static const MonotoneCurve curve = make_computed_sky_curve();
+  static const double night_lux = std::pow(10.0, log10_illuminance(-18));
+  const double sky_lux = std::pow(10.0, curve.at(sun_elevation.in(deg)));
+  return (sky_lux + night_lux) / std::numbers::pi * cd_per_m2;
 }
 
 double twilight_level(Angle true_elevation, Angle horizon_true_elevation,

@@ -20,6 +20,12 @@ Illuminance clear_sky_illuminance(Angle true_sun_elevation);
 /// Domain 0..90 deg, constant outside; below the horizon twilight_level continues it.
 Luminance mean_clear_sky_luminance(Angle sun_elevation);
 
+/// The same of the computed atmosphere, with the air of a config that says nothing, for a sun
+/// anywhere: by sun and air from above -18 deg, whose end of twilight it tends to below, when the
+/// night sky's own light is all there is (clear_sky_illuminance at -18 deg, which is added).
+/// Source   clear_sky_nodes (benchmarks/slice_image): the double twin, level standard, 16 bands.
+Luminance mean_computed_sky_luminance(Angle sun_elevation);
+
 /// Factor on the sky of sun elevation 0 when the sun's true elevation h is below h0, at which the
 /// sky model sees the sun on the horizon; 1 from h0 up. The sky keeps its shape and loses light as
 /// the published illuminance does, E(h) / E(h0). `sky_at_horizon` is the model's own illuminance

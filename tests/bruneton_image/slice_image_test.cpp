@@ -9,6 +9,7 @@
 #include "bruneton_image/slices.h"
 #include "color/rgb_space.h"
 #include "core/parallel.h"
+#include "sky/bruneton/slice_irradiance.h"
 
 namespace skylapse::sky::bruneton {
 namespace {
@@ -237,6 +238,37 @@ TEST(SliceImageHorizon, ThinLimbKeepsItsLightAtAnySize) {
   const double from_nadir = kPi - sky.slice.grid.horizon_zenith_rad;
   for (const int height : {180, 181, 183, 360, 501, 1000, 1001, 2000})
     EXPECT_NEAR(light(height) / fine, 1, 0.005 + 0.5 * kPi / height / from_nadir) << height;
+}
+
+TEST(SliceImageLaws, TheMappingIsThatOfTheSlicesOwnLookup) {
+  for (const MadeUpSky& sky : made_up_skies())
+    for (double azimuth = 0; azimuth <= kPi; azimuth += 0.31)
+      for (double u = -1; u <= 1; u += 0.0137) {
+        const SliceGrid& grid = sky.slice.grid;
+        const double over = u * std::abs(u) * (u < 0 ? grid.ground_span_rad : grid.sky_span_rad);
+        const glm::dvec3 own = looked_up(sky.slice, over, azimuth);
+        const glm::dvec3 expected =
+            sky.slice.radiance_xyz((grid.horizon_zenith_rad - over) * rad, azimuth * rad);
+        ASSERT_NEAR(own.y, expected.y, 1e-7 * expected.y) << sky.name << " " << u;
+      }
+}
+
+TEST(SliceIrradiance, IsTheIntegralOverTheUpperHalfOfTheSky) {
+  for (const MadeUpSky& sky : made_up_skies()) {
+    if (std::abs(sky.slice.aerosol_g) > 0.9) continue;  // needs a finer grid here than below
+    const SliceGrid& grid = sky.slice.grid;
+    glm::dvec3 sum(0);
+    constexpr int kZeniths = 600, kAzimuths = 600;
+    for (int i = 0; i < kZeniths; ++i)
+      for (int j = 0; j < kAzimuths; ++j) {
+        const double zenith = (i + 0.5) / kZeniths * kPi / 2, azimuth = (j + 0.5) / kAzimuths * kPi;
+        sum += std::sin(zenith) * std::cos(zenith) *
+               looked_up(sky.slice, grid.horizon_zenith_rad - zenith, azimuth);
+      }
+    sum *= 2 * kPi / kAzimuths * kPi / 2 / kZeniths;
+    const glm::dvec3 irradiance = horizontal_irradiance_xyz(sky.slice);
+    EXPECT_NEAR(irradiance.y, sum.y, 2e-3 * sum.y + 1e-12) << sky.name;
+  }
 }
 
 Camera wide_camera() { return camera_of(Projection::perspective, 301, 173, 100, 250, 5, 12); }

@@ -50,7 +50,9 @@ TEST(Effects, TheGroundIsDrawnOnlyWhenAPixelLooksBelowTheHorizon) {
 }
 
 TEST(Effects, TwilightContinuationFollowsTheSun) {
-  const auto plan = plan_of(at_noon("projection: lat-long, size: 64x32"));
+  Scene scene = at_noon("projection: lat-long, size: 64x32");
+  scene.more = "sky: {model: hosek-wilkie}";
+  const auto plan = plan_of(scene);
   EXPECT_TRUE(on(plan, 0, plan::Effect::twilight_continuation));
   EXPECT_FALSE(on(plan, 1, plan::Effect::twilight_continuation));
 }

@@ -126,8 +126,12 @@ TEST(SunForAtmosphere, StandsWhereItIsSeenAndSinksSteadily) {
     EXPECT_FALSE(sun.extrapolated);
     const double now = sun.elevation.in(deg);
     EXPECT_LT(now, last);
-    if (el < 89) EXPECT_NEAR(last - now, 0.01, 0.004) << el;
-    if (el < -6) EXPECT_NEAR(now, el, 1e-9);
+    if (el < 89) {
+      EXPECT_NEAR(last - now, 0.01, 0.004) << el;
+    }
+    if (el < -6) {
+      EXPECT_NEAR(now, el, 1e-9);
+    }
     last = now;
   }
 }
