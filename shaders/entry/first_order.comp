@@ -35,6 +35,6 @@ void main() {
     vec4 result = sum[g] * band_group(g).solar_irradiance;
     if (ray.hits_ground > 0.5)
       result += to_ground[g * rays.length() + at.ray] * ground_radiance(g, ground_mu_s);
-    light[g * items + item] = result;
+    light[g * items + at.store] = result;
   }
 }

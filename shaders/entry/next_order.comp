@@ -29,5 +29,5 @@ void main() {
       sum[g] += to_ground[g * rays.length() + at.ray] * band_group(g).ground_albedo *
                 fetch_ground(g, row) * (1.0 / PI);
   }
-  for (int g = 0; g < GROUPS; ++g) light[g * items + item] = sum[g];
+  for (int g = 0; g < GROUPS; ++g) light[g * items + at.store] = sum[g];
 }

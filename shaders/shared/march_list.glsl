@@ -18,18 +18,21 @@ layout(std430, binding = 4) readonly buffer GroundTransmittanceBlock { vec4 to_g
 // [group][ray][sun][azimuth]
 layout(std430, binding = 5) writeonly buffer LightBlock { vec4 light[]; };
 
-// One invocation is one ray under one sun at one azimuth, for all groups.
+// One invocation is one ray under one sun at one azimuth, for all groups. All rays under one sun come
+// one after the other, for they read the same few sun rows of the source.
 struct Incidence {
   int ray;
   float mu_s, nu;
+  int store;  // place in light[] of the first group
 };
 
 Incidence incidence_of(int item) {
   int azimuth = item % AZIMUTHS;
-  int sun = (item / AZIMUTHS) % SUNS;
-  int ray = item / (AZIMUTHS * SUNS);
+  int ray = (item / AZIMUTHS) % rays.length();
+  int sun = item / (AZIMUTHS * rays.length());
   float mu = rays[ray].mu;
   float mu_s = sun_mu[sun];
   float sines = sqrt(max((1.0 - mu * mu) * (1.0 - mu_s * mu_s), 0.0));
-  return Incidence(ray, mu_s, mu * mu_s + sines * cos(PI * (float(azimuth) + 0.5) / float(AZIMUTHS)));
+  float nu = mu * mu_s + sines * cos(PI * (float(azimuth) + 0.5) / float(AZIMUTHS));
+  return Incidence(ray, mu_s, nu, (ray * SUNS + sun) * AZIMUTHS + azimuth);
 }
