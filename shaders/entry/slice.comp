@@ -95,12 +95,11 @@ Sums shadowed_scattering(SliceRow row, SunOfRay sun, vec2 shadow, Sums sums) {
       float away = (end - begin) * node.x * node.x;
       float t = rising ? begin + away : end - away;
       float s = sqrt(clamp((rising ? t - piece_begin : piece_end - t) / (piece_end - piece_begin), 0.0, 1.0));
-      vec2 size = vec2(textureSize(profiles, 0));
-      vec2 at = vec2(s * (size.x - 1.0) + 0.5, float(row.first_piece + piece) + 0.5) / size;
+      vec2 at = vec2(s * float(textureSize(profiles, 0).x - 1), float(row.first_piece + piece));
       float h = height_along(ray.height, ray.mu, t);
       float mu_s = (radius_of(ray.height) * sun.mu_s + t * sun.nu) / radius_of(h);
       vec3 amount = densities(h) * (2.0 * node.x * node.y * (end - begin));
-      sums = add_sunlight(sums, h, clamp(mu_s, -1.0, 1.0), textureLod(profiles, at, 0.0).xyz,
+      sums = add_sunlight(sums, h, clamp(mu_s, -1.0, 1.0), filtered(profiles, at).xyz,
                           amount.x, amount.y);
     }
     if (end >= piece_end) {

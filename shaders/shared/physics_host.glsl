@@ -1,5 +1,6 @@
 #pragma once
-// What GL provides to the physics text (shaders/atmosphere/README.md lists it). GROUPS is a define.
+// What GL provides to the physics text (shaders/atmosphere/README.md lists it). Defines: GROUPS,
+// MAX_GAUSS, and EXACT_FILTER: 1 where the samplers' interpolation is not that of float.
 
 #define Real float
 const float PI = 3.14159265358979;
@@ -35,14 +36,49 @@ BandGroup band_group(int g) { return bands[g]; }
 
 vec2 fetch_gauss(int i) { return gauss[i].xy; }
 
-vec3 fetch_columns(vec2 texel) {
-  // Distances run fastest in memory.
-  return textureLod(columns_table, (texel.yx + 0.5) / vec2(textureSize(columns_table, 0)), 0.0).xyz;
+#if EXACT_FILTER
+// Samplers in hardware keep 8 bits of the weights; the steps of 1/256 would show in twilight.
+vec4 filtered_plane(sampler3D table, ivec3 low, ivec3 high, vec2 weight, int z) {
+  return mix(mix(texelFetch(table, ivec3(low.xy, z), 0), texelFetch(table, ivec3(high.x, low.y, z), 0), weight.x),
+             mix(texelFetch(table, ivec3(low.x, high.y, z), 0), texelFetch(table, ivec3(high.xy, z), 0), weight.x),
+             weight.y);
 }
 
-vec4 fetch_source(int g, vec3 texel) {
-  return textureLod(source_table[g], (texel + 0.5) / vec3(textureSize(source_table[g], 0)), 0.0);
+vec4 filtered(sampler3D table, vec3 texel) {
+  ivec3 last = textureSize(table, 0) - 1;
+  vec3 at = clamp(texel, vec3(0.0), vec3(last));
+  ivec3 low = ivec3(at);
+  ivec3 high = min(low + 1, last);
+  vec3 weight = at - vec3(low);
+  return mix(filtered_plane(table, low, high, weight.xy, low.z),
+             filtered_plane(table, low, high, weight.xy, high.z), weight.z);
 }
+
+vec4 filtered(sampler2D table, vec2 texel) {
+  ivec2 last = textureSize(table, 0) - 1;
+  vec2 at = clamp(texel, vec2(0.0), vec2(last));
+  ivec2 low = ivec2(at);
+  ivec2 high = min(low + 1, last);
+  vec2 weight = at - vec2(low);
+  return mix(mix(texelFetch(table, low, 0), texelFetch(table, ivec2(high.x, low.y), 0), weight.x),
+             mix(texelFetch(table, ivec2(low.x, high.y), 0), texelFetch(table, high, 0), weight.x),
+             weight.y);
+}
+#else
+vec4 filtered(sampler3D table, vec3 texel) {
+  return textureLod(table, (texel + 0.5) / vec3(textureSize(table, 0)), 0.0);
+}
+
+vec4 filtered(sampler2D table, vec2 texel) {
+  return textureLod(table, (texel + 0.5) / vec2(textureSize(table, 0)), 0.0);
+}
+#endif
+
+vec3 fetch_columns(vec2 texel) {
+  return filtered(columns_table, texel.yx).xyz;  // distances run fastest in memory
+}
+
+vec4 fetch_source(int g, vec3 texel) { return filtered(source_table[g], texel); }
 
 vec4 fetch_ground(int g, float row) {
   int rows = int(air.sun_row_last) + 1;

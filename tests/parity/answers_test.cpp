@@ -43,7 +43,7 @@ std::string text_of(const Query& q) {
 TEST_P(AnyAnswer, IsTheTwinsOverTheWholeDomain) {
   const auto tables = reference_tables();
   const Twin twin(tables);
-  const auto queries = random_queries(3000, 1);
+  const auto queries = random_queries(2000, 1);
   const auto answers = ask(*tables, queries, {.multiple_scattering = true, .ground = true});
   ASSERT_EQ(answers.size(), queries.size());
   for (size_t i = 0; i < queries.size(); ++i) {
@@ -63,7 +63,7 @@ TEST_P(AnyAnswer, IsTheTwinsOverTheWholeDomain) {
 
 TEST_P(AnyAnswer, IsFiniteAndPhysicalEverywhere) {
   const auto tables = reference_tables();
-  const auto queries = random_queries(100000, 2);
+  const auto queries = random_queries(30000, 2);
   size_t wrong = 0;
   for (const Answer& answer : ask(*tables, queries, {.multiple_scattering = true, .ground = true}))
     for (size_t b = 0; b < answer.radiance.size(); ++b) {

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "gpu/functions.h"
 #include "gpu/program.h"
 #include "sky/bruneton/physics_buffers.h"
@@ -81,7 +82,8 @@ Result<Range> create_range(const gpu::Functions& gl, const Tables& tables, const
   range.xyz_weight = gpu::Buffer::of(gl, xyz_weights(tables.medium, groups));
   for (const auto& [program, entry] : {std::pair{&range.slice, "entry/slice.comp"},
                                        std::pair{&range.answer, "entry/answer.comp"}}) {
-    auto made = gpu::Program::create(gl, entry, physics_defines(groups.count));
+    auto made = gpu::Program::create(gl, entry,
+                                     physics_defines(groups.count, filter_of(gl.context->info())));
     if (!made) return made.error();
     *program = std::move(made).value();
   }
@@ -224,12 +226,15 @@ Result<std::vector<Answer>> GpuModel::answer(const std::vector<Query>& queries,
   std::vector<Answer> answers(queries.size());
   for (size_t first = 0; first < queries.size(); first += kQueriesAtOnce) {
     const size_t count = std::min(kQueriesAtOnce, queries.size() - first);
-    std::vector<float> rays;
-    for (size_t i = 0; i < count; ++i) {
-      const std::vector<float> query =
-          floats_of_block(query_rays(*state.columns, queries[first + i]));
-      rays.insert(rays.end(), query.begin(), query.end());
-    }
+    constexpr size_t kFloats = sizeof(QueryRays) / sizeof(double);
+    std::vector<float> rays(count * kFloats);
+    parallel_for_ranges(count, 64, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        const std::vector<float> query =
+            floats_of_block(query_rays(*state.columns, queries[first + i]));
+        std::copy(query.begin(), query.end(), rays.begin() + std::ptrdiff_t(i * kFloats));
+      }
+    });
     const Status status = state.context->run([&](const gpu::Functions& gl) -> Status {
       const gpu::Buffer uniforms = gpu::Buffer::of_block(gl, block);
       const gpu::Buffer ray_buffer = gpu::Buffer::of(gl, rays);

@@ -25,8 +25,10 @@ std::vector<float> floats_of(const std::vector<glm::dvec4>& values) {
   return values.empty() ? std::vector<float>{} : floats_of(&values[0][0], 4 * values.size());
 }
 
-std::vector<gpu::Define> physics_defines(int groups) {
-  return {{"GROUPS", groups}, {"MAX_GAUSS", kMaxGauss}};
+std::vector<gpu::Define> physics_defines(int groups, Filter filter) {
+  return {{"GROUPS", groups},
+          {"MAX_GAUSS", kMaxGauss},
+          {"EXACT_FILTER", filter == Filter::exact ? 1 : 0}};
 }
 
 Result<PhysicsBuffers> PhysicsBuffers::create(const gpu::Functions& gl, const PhysicsData& data,

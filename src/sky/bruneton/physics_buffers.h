@@ -29,8 +29,14 @@ std::vector<float> floats_of(const std::vector<glm::dvec4>& values);
 
 /// Most Gauss nodes of a march.
 inline constexpr int kMaxGauss = 64;
+/// How shaders interpolate in tables. Samplers of software are exact and quick; those of hardware
+/// keep 8 bits of the weights.
+enum class Filter { sampler, exact };
+inline Filter filter_of(const gpu::ContextInfo& info) {
+  return info.software ? Filter::sampler : Filter::exact;
+}
 /// The defines that physics_host.glsl needs.
-std::vector<gpu::Define> physics_defines(int groups);
+std::vector<gpu::Define> physics_defines(int groups, Filter filter);
 
 /// Members run inside Context::run.
 class PhysicsBuffers {

@@ -162,7 +162,8 @@ class Passes {
   }
 
   Status compile() {
-    std::vector<gpu::Define> defines = physics_defines(range_.count);
+    std::vector<gpu::Define> defines =
+        physics_defines(range_.count, filter_of(gl_.context->info()));
     const std::vector<gpu::Define> sizes{{"HEIGHTS", size_.heights},
                                          {"SUNS", size_.suns},
                                          {"ROWS", rows()},
