@@ -17,7 +17,7 @@ struct Furnace {
   double mean = 0, error = 0;
 };
 Furnace furnace(const atmosphere::Medium& medium, Length height, Angle view_zenith, size_t band) {
-  constexpr int kSuns = 1500;
+  constexpr int kSuns = 700;
   double sum = 0, squares = 0;
   for (int i = 0; i < kSuns; ++i) {
     PathRandom random(11, uint64_t(i));
@@ -37,7 +37,7 @@ TEST(Energy, AWhiteFurnaceIsWhiteSeenDownwards) {
   for (const Length height : {1.0 * metre, 20.0 * km, 400.0 * km}) {
     const Furnace seen = furnace(conservative(1), height, 150 * deg, 2);
     EXPECT_NEAR(seen.mean, 1, 4 * seen.error) << height.in(km);
-    EXPECT_LT(seen.error, 0.04);
+    EXPECT_LT(seen.error, 0.06);
   }
 }
 
@@ -48,7 +48,7 @@ TEST(Energy, AWhiteFurnaceIsWhiteSeenUpwards) {
                                                  {.samples = 1, .max_order = 1});
     const Furnace seen = furnace(medium, 1 * metre, zenith, 2);
     EXPECT_NEAR(seen.mean + ray.transmittance[2], 1, 4 * seen.error) << zenith.in(deg);
-    EXPECT_LT(seen.error, 0.05);
+    EXPECT_LT(seen.error, 0.07);
   }
 }
 

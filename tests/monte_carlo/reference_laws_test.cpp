@@ -116,7 +116,7 @@ Found found_with(const PathRules& rules, Angle sun_zenith, uint64_t seed) {
   Path path(optics, rules);
   PathRadiance found;
   double sum = 0, squares = 0;
-  constexpr int kPaths = 30000;
+  constexpr int kPaths = 12000;
   for (int i = 0; i < kPaths; ++i) {
     PathRandom random(seed, uint64_t(i));
     path.begin({0.5, {0, 0, 1}}, glm::normalize(glm::dvec3(1, 0.2, 0.3)),
@@ -135,7 +135,7 @@ TEST(Reference, RouletteIsWithoutBias) {
     for (const double below : {0.3, 1.0, 3.0}) {
       const Found with = found_with({.max_order = 8, .roulette_below = below}, sun, 2);
       EXPECT_NEAR(with.mean, without.mean, 4 * std::hypot(with.error, without.error)) << below;
-      EXPECT_LT(with.error, 0.02 * with.mean);
+      EXPECT_LT(with.error, 0.04 * with.mean);
     }
   }
 }
@@ -147,7 +147,7 @@ TEST(Reference, TheGuideOfTwilightIsWithoutBiasAndHelps) {
   for (const Angle sun : {88 * deg, 94 * deg}) {
     const Found plain = found_with(without, sun, 5), guided = found_with(with, sun, 6);
     EXPECT_NEAR(guided.mean, plain.mean, 4 * std::hypot(guided.error, plain.error));
-    EXPECT_LT(guided.error, 0.05 * guided.mean);
+    EXPECT_LT(guided.error, 0.08 * guided.mean);
     if (sun > 90 * deg) {
       EXPECT_LT(guided.error, 0.6 * plain.error);
     }
