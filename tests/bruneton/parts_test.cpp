@@ -120,7 +120,9 @@ TEST(Columns, OfTheTableAgreeWithQuadrature) {
       const glm::dvec3 table = text.columns_to_top(h, mu);
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(table[c], exact[c], 0.015 * exact[c] + 0.01) << h << ' ' << mu;
-      if (h < 1) EXPECT_NEAR(table.x, exact.x, 0.002 * exact.x) << h << ' ' << mu;
+      if (h < 1) {
+        EXPECT_NEAR(table.x, exact.x, 0.002 * exact.x) << h << ' ' << mu;
+      }
     }
 }
 

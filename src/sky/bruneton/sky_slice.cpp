@@ -30,7 +30,13 @@ SliceGrid slice_grid(const atmosphere::Medium& medium, Length height, int azimut
 }
 
 SliceGrid slice_grid(const atmosphere::Medium& medium, Length height) {
-  return slice_grid(medium, height, 64, 128);
+  const double R = medium.bottom_radius_km, h = height.in(km);
+  const double sin_dip = std::sqrt(h * (2 * R + h)) / (R + h);
+  // A high camera sees a thin limb and, far below, the terminator at all azimuths: rows double up
+  // to 40 km, columns grow with the arc of the ground in view. Measured in docs/atmosphere.md.
+  const int zeniths = 128 + 2 * int(64 * std::min(sin_dip / 0.11, 1.0));
+  const int azimuths = 64 + 8 * int(24 * sin_dip);
+  return slice_grid(medium, height, azimuths, zeniths);
 }
 
 glm::dvec3 SkySlice::radiance_xyz(Angle zenith, Angle azimuth_from_sun) const {
