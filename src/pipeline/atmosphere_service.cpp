@@ -36,21 +36,15 @@ Tables bare_tables(const Medium& medium) {
 }
 
 /// Sizes that suffice for both: tables that are mixed must be alike.
-Settings larger(const Settings& a, const Settings& b) {
-  const auto max = [](int x, int y) { return std::max(x, y); };
-  return {.heights = max(a.heights, b.heights),
-          .suns = max(a.suns, b.suns),
-          .sun_rows_per_interval = max(a.sun_rows_per_interval, b.sun_rows_per_interval),
-          .directions_up = max(a.directions_up, b.directions_up),
-          .directions_down = max(a.directions_down, b.directions_down),
-          .azimuths = max(a.azimuths, b.azimuths),
-          .harmonics = max(a.harmonics, b.harmonics),
-          .table_azimuths = max(a.table_azimuths, b.table_azimuths),
-          .table_zeniths = max(a.table_zeniths, b.table_zeniths),
-          .samples = max(a.samples, b.samples),
-          .first_order_samples = max(a.first_order_samples, b.first_order_samples),
-          .max_orders = max(a.max_orders, b.max_orders),
-          .stop_below = std::min(a.stop_below, b.stop_below)};
+Settings larger(Settings a, const Settings& b) {
+  for (int Settings::*size :
+       {&Settings::heights, &Settings::suns, &Settings::sun_rows_per_interval,
+        &Settings::directions_up, &Settings::directions_down, &Settings::azimuths,
+        &Settings::harmonics, &Settings::table_azimuths, &Settings::table_zeniths,
+        &Settings::samples, &Settings::first_order_samples, &Settings::max_orders})
+    a.*size = std::max(a.*size, b.*size);
+  a.stop_below = std::min(a.stop_below, b.stop_below);
+  return a;
 }
 
 /// The last few of a kind, by name.

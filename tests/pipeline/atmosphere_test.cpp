@@ -79,9 +79,10 @@ double roughness(const std::vector<double>& values) {
   return worst;
 }
 
-// The sun goes from 3 deg to -18 deg by up to 0.26 deg a frame. The disc is left out: where it sets
-// the light falls as it must. Light that falls by two stops a degree at most and bends over some
-// degrees has second differences of a few hundredths of a stop; a step stands out tenfold.
+// The sun goes from 3 deg to the bottom of the night by up to 0.26 deg a frame. The disc is left
+// out: where it sets the light falls as it must. The light loses up to two stops a degree; its true
+// second differences reach 0.03 stops (level standard), the 20 sun nodes of the draft level bend it
+// by up to 0.08. A step or a ghost of the nodes' own size would be several times that.
 TEST_F(Atmosphere, DuskHasNoStepDownToTheEndOfTwilight) {
   const auto plan = plan_of_text(scene(
       "235 m", "from: sunset - 20 min, to: sunset + 225 min, step: 2 min",
@@ -102,7 +103,7 @@ TEST_F(Atmosphere, DuskHasNoStepDownToTheEndOfTwilight) {
     EXPECT_LT(light[i], light[i - 1] * 1.0001) << "frame " << i;
     EXPECT_GT(light[i], light[i - 1] * 0.6) << "frame " << i;
   }
-  EXPECT_LT(roughness(light), 0.05);
+  EXPECT_LT(roughness(light), 0.1);
 }
 
 TEST_F(Atmosphere, ThePictureHoldsTheLightThatIsRecorded) {
@@ -174,10 +175,11 @@ TEST_F(Atmosphere, AirThatChangesPassesWithoutAStep) {
             "aerosol_optical_depth: 0.1}, {time: '12:40', aerosol_optical_depth: 0.35}]}"));
   const auto frames = render_all(plan);
   ASSERT_EQ(frames.size(), 25u);
+  // Between the keyframes, at 11:20 and 12:40: there the light bends as the air does.
   std::vector<double> light;
-  for (const auto& frame : frames) light.push_back(frame.sky_irradiance_xyz.y);
-  EXPECT_GT(light.back(), 1.15 * light.front());
-  EXPECT_LT(roughness(light), 0.05);  // the keyframes are corners: 0.25 in depth in 16 frames
+  for (size_t i = 5; i <= 20; ++i) light.push_back(frames[i].sky_irradiance_xyz.y);
+  EXPECT_GT(frames.back().sky_irradiance_xyz.y, 1.5 * frames.front().sky_irradiance_xyz.y);
+  EXPECT_LT(roughness(light), 0.02);
 }
 
 nlohmann::json manifest_of(const std::filesystem::path& folder) {
