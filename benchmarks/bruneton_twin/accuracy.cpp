@@ -7,6 +7,7 @@
 #include <ctime>
 #include <random>
 
+#include "bruneton/energy_balance.h"
 #include "core/parallel.h"
 #include "sky/bruneton/physics.h"
 #include "studies.h"
@@ -125,6 +126,29 @@ void study_accuracy() {
     against_converged(twin, cases);
     fmt::print("\n");
     std::fflush(stdout);
+  }
+}
+
+void study_energy(Level level) {
+  const atmosphere::Medium medium = atmosphere::reference_medium();
+  const auto tables =
+      std::make_shared<const Tables>(precompute_twin(medium, settings_for(level, medium)));
+  const Twin twin(tables);
+  fmt::print("irradiance of the tables over the integral of the radiance - 1 [%], three bands\n");
+  for (const double sun : {0.0, 30.0, 60.0, 80.0, 85.0, 90.0, 94.0, 97.0}) {
+    const Twin::Irradiance integral = twin.irradiance(0 * km, sun * deg);
+    fmt::print("  sun {:2g}:", sun);
+    for (int b = 0; b < 3; ++b)
+      fmt::print(" {:+.2f}", 100 * (table_irradiance(*tables, sun * deg, b) / integral.sky[b] - 1));
+    fmt::print("\n");
+  }
+  for (const double factor : {1.0, 50.0}) {
+    atmosphere::Medium white = conservative_medium(1);
+    white.bands[0].aerosol_extinction_per_km *= factor;
+    white.bands[0].aerosol_scattering_per_km *= factor;
+    fmt::print(
+        "conservative air over a white ground, aerosol x {:g}: {:.4f} of the light returns\n",
+        factor, returned_share(white, level));
   }
 }
 

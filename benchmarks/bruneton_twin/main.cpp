@@ -1,6 +1,7 @@
 // Accuracy of the atmosphere model, from its CPU twin.
 //
-//   bruneton_twin accuracy | twilight [LEVEL] | illuminance [LEVEL] | slices | draws [COUNT]
+//   bruneton_twin accuracy | twilight [LEVEL] | illuminance [LEVEL] | energy [LEVEL] | slices |
+//   draws [COUNT]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,11 +22,13 @@ int main(int argc, char** argv) {
     study_twilight(level);
   else if (what == "illuminance")
     study_illuminance(level);
+  else if (what == "energy")
+    study_energy(level);
   else if (what == "slices")
     study_slices();
   else if (what == "draws")
     study_draws(detail.empty() ? 10'000'000 : std::stoll(detail));
   else
-    return fmt::print(stderr, "accuracy, twilight, illuminance, slices or draws?\n"), 2;
+    return fmt::print(stderr, "accuracy, twilight, illuminance, energy, slices or draws?\n"), 2;
   return 0;
 }

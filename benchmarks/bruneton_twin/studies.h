@@ -14,6 +14,8 @@ void study_twilight(Level level);
 void study_illuminance(Level level);
 /// What the bilinear lookup of a slice costs, by size, height and sun.
 void study_slices();
+/// Whether light is made or lost.
+void study_energy(Level level);
 /// Random draws over the whole domain: nothing but finite, non-negative light.
 void study_draws(long long count);
 
