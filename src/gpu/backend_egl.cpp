@@ -97,12 +97,13 @@ class Display {
 
  private:
   Display(const Egl& egl, EGLDisplay display) : egl_(egl), display_(display) {}
+  // Never destroyed: a context in a static variable may live longer than any other static.
   static std::mutex& mutex() {
-    static std::mutex instance;
+    static auto& instance = *new std::mutex;
     return instance;
   }
   static std::map<EGLDisplay, int>& users() {
-    static std::map<EGLDisplay, int> instance;
+    static auto& instance = *new std::map<EGLDisplay, int>;
     return instance;
   }
   Egl egl_;

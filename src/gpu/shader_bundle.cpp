@@ -3,13 +3,81 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
+#include <charconv>
+#include <optional>
 #include <sstream>
 
 namespace skylapse::gpu {
 namespace {
 
 constexpr const char* kFolder = "shaders/";
+
+/// Reads a line from left to right; every step fails once one has failed.
+class Scanner {
+ public:
+  explicit Scanner(std::string_view line) : rest_(line) {}
+  [[nodiscard]] bool ok() const { return ok_; }
+  [[nodiscard]] std::string_view rest() const { return rest_; }
+
+  Scanner& blanks() {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t'))
+      rest_.remove_prefix(1);
+    return *this;
+  }
+  Scanner& word(std::string_view text) {
+    ok_ = ok_ && rest_.starts_with(text);
+    if (ok_) rest_.remove_prefix(text.size());
+    return *this;
+  }
+  Scanner& number(size_t& value) {
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    ok_ = ok_ && error == std::errc();
+    if (ok_) rest_.remove_prefix(size_t(end - rest_.data()));
+    return *this;
+  }
+
+ private:
+  std::string_view rest_;
+  bool ok_ = true;
+};
+
+struct Include {
+  std::string path;
+  int column = 0;  // of the path, from 1
+};
+std::optional<Include> include_of(const std::string& line) {
+  Scanner scanner(line);
+  if (!scanner.blanks().word("#").blanks().word("include").blanks().word("\"").ok()) return {};
+  const std::string_view path = scanner.rest().substr(0, scanner.rest().find('"'));
+  return Include{std::string(path), int(path.data() - line.data()) + 1};
+}
+
+bool is_pragma_once(const std::string& line) {
+  return Scanner(line).blanks().word("#").blanks().word("pragma").blanks().word("once").ok();
+}
+
+/// File number, line and message of one line of a compiler's log.
+struct Message {
+  size_t file = 0, line = 0;
+  std::string_view text;
+};
+std::optional<Message> message_of(std::string_view line) {
+  Message m;
+  size_t column = 0;
+  Scanner mesa(line), nvidia(line), error(line), warning(line);
+  const Scanner* read = nullptr;
+  if (mesa.number(m.file).word(":").number(m.line).word("(").number(column).word("): ").ok())
+    read = &mesa;
+  else if (nvidia.number(m.file).word("(").number(m.line).word(") : ").ok())
+    read = &nvidia;
+  else if (error.word("ERROR: ").number(m.file).word(":").number(m.line).word(": ").ok())
+    read = &error;
+  else if (warning.word("WARNING: ").number(m.file).word(":").number(m.line).word(": ").ok())
+    read = &warning;
+  if (read == nullptr) return {};
+  m.text = read->rest();
+  return m;
+}
 
 class Bundler {
  public:
@@ -34,21 +102,18 @@ class Bundler {
 
  private:
   Status append_lines(const ShaderFile& file, size_t number) {
-    static const std::regex include(R"re(^\s*#\s*include\s+"([^"]+)".*)re");
-    static const std::regex once(R"(^\s*#\s*pragma\s+once\s*$)");
     std::istringstream lines{std::string(file.text)};
     bundle_.text += fmt::format("#line 1 {}\n", number);
     int line_number = 1;
     for (std::string line; std::getline(lines, line); ++line_number) {
-      std::smatch match;
-      if (std::regex_match(line, match, include)) {
-        const SourceSpan span{kFolder + std::string(file.path), line_number,
-                              int(match.position(1)) + 1, int(match.length(1)), line};
-        const Status status = append(match[1].str(), span);
+      if (const auto include = include_of(line)) {
+        const SourceSpan span{kFolder + std::string(file.path), line_number, include->column,
+                              int(include->path.size()), line};
+        const Status status = append(include->path, span);
         if (!status) return status;
         bundle_.text += fmt::format("#line {} {}\n", line_number + 1, number);
       } else {
-        bundle_.text += (std::regex_match(line, once) ? "" : line) + "\n";
+        bundle_.text += (is_pragma_once(line) ? "" : line) + "\n";
       }
     }
     return Done{};
@@ -81,19 +146,11 @@ Result<ShaderBundle> bundle_shader(std::string_view entry, const std::vector<Def
 }
 
 std::string map_compiler_log(const ShaderBundle& bundle, std::string_view log) {
-  static const std::regex mesa(R"(^(\d+):(\d+)\(\d+\): (.*)$)");
-  static const std::regex nvidia(R"(^(\d+)\((\d+)\) : (.*)$)");
-  static const std::regex other(R"(^(?:ERROR|WARNING): (\d+):(\d+): (.*)$)");
   std::istringstream lines{std::string(log)};
   std::string mapped;
   for (std::string line; std::getline(lines, line);) {
-    std::smatch match;
-    if (std::regex_match(line, match, mesa) || std::regex_match(line, match, nvidia) ||
-        std::regex_match(line, match, other)) {
-      const size_t file = std::stoul(match[1].str());
-      if (file < bundle.files.size())
-        line = bundle.files[file] + ":" + match[2].str() + ": " + match[3].str();
-    }
+    if (const auto message = message_of(line); message && message->file < bundle.files.size())
+      line = fmt::format("{}:{}: {}", bundle.files[message->file], message->line, message->text);
     mapped += (mapped.empty() ? "" : "\n") + line;
   }
   return mapped;

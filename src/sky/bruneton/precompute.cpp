@@ -8,6 +8,7 @@
 #include "sky/bruneton/march_buffers.h"
 #include "sky/bruneton/order_tail.h"
 #include "sky/bruneton/sun_rows.h"
+#include "sky/bruneton/table_file.h"
 
 namespace skylapse::sky::bruneton {
 namespace {
@@ -111,15 +112,22 @@ class Passes {
     contract(spread_azimuths_, nodes(), size_.table_azimuths);
   }
 
-  /// Rows of the source textures between the sun nodes.
-  void fill_table(bool total) const {
-    (total ? total_ : source_).bind_storage(gl_, 0);
+  /// The source of the last order, with the rows between the sun nodes, for the next march.
+  void fill_tables() const {
+    source_.bind_storage(gl_, 0);
     const int items = nodes() / size_.suns * (size_.suns - 1) * size_.table_azimuths;
     for (int g = 0; g < range_.count; ++g) {
       group_index_[g].bind_uniform(gl_, 3);
       table_[g].bind_image(gl_, 0);
       fill_suns_.dispatch(gl_, {gpu::groups_for(items, kGroupSize)});
     }
+  }
+  /// The sum of all orders of one group: [height][zenith][sun node][azimuth][channel].
+  [[nodiscard]] std::vector<float> total(int group) const {
+    std::vector<float> values(4 * size_t(nodes()) * size_.table_azimuths);
+    const size_t bytes = values.size() * sizeof(float);
+    total_.read(gl_, group * bytes, bytes, values.data());
+    return values;
   }
 
   /// Per group, [height][sun node].
@@ -151,7 +159,6 @@ class Passes {
     total_.bind_storage(gl_, 2);
     add_tail_.dispatch(gl_, {gpu::groups_for(nodes(), kGroupSize), 1, range_.count});
   }
-  [[nodiscard]] std::vector<float> read_table(int group) const { return table_[group].read(gl_); }
 
  private:
   [[nodiscard]] int rows() const { return size_.directions_up + size_.directions_down; }
@@ -241,7 +248,7 @@ class Range {
     passes.gather();
     while (!watch(passes)) {
       progress(share_done());
-      passes.fill_table(false);
+      passes.fill_tables();
       passes.next_order(rows_of(light));
       light = passes.ground_light();
       for (size_t g = 0; g < light.size(); ++g) add(ground_[g], light[g], {});
@@ -250,7 +257,6 @@ class Range {
     passes.add_tail(tails_);
     for (size_t g = 0; g < light.size(); ++g)
       add(ground_[g], light[g], tails_[g].ground_tail_factors());
-    passes.fill_table(true);
     finish(passes, tables);
     return Done{};
   }
@@ -293,9 +299,19 @@ class Range {
     if (worst <= 0 || worst >= 1) return 0.2;
     return std::clamp(std::log(worst) / std::log(size_.stop_below), 0.2, 0.95);
   }
+  /// All rows of one group's source with those at the sun nodes in their places, the others dark.
+  [[nodiscard]] std::vector<float> spread_nodes(const std::vector<float>& nodes) const {
+    const size_t row = size_t(4) * size_.table_azimuths, slabs = nodes.size() / (row * size_.suns);
+    std::vector<float> rows(slabs * size_.sun_rows() * row, 0.0f);
+    for (size_t slab = 0; slab < slabs; ++slab)
+      for (size_t j = 0; j < size_t(size_.suns); ++j)
+        std::copy_n(&nodes[(slab * size_.suns + j) * row], row,
+                    &rows[(slab * size_.sun_rows() + j * size_.sun_rows_per_interval) * row]);
+    return rows;
+  }
   void finish(const Passes& passes, Tables& tables) const {
     for (size_t g = 0; g < tails_.size(); ++g) {
-      tables.source.push_back(passes.read_table(int(g)));
+      tables.source.push_back(spread_nodes(passes.total(int(g))));
       tables.ground_irradiance.push_back(rows_of(ground_[g]));
       tables.orders = std::max(tables.orders, tails_[g].orders());
       for (int c = 0; c < 4 && tables.tail_ratio.size() < tables.medium.bands.size(); ++c) {
@@ -330,6 +346,7 @@ Result<Tables> precompute(gpu::Context& context, const atmosphere::Medium& mediu
     if (!status) return status.error();
     report(1);
   }
+  refill_sun_rows(tables);
   return tables;
 }
 
