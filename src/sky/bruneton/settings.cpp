@@ -12,8 +12,8 @@ namespace skylapse::sky::bruneton {
 namespace {
 
 constexpr int kGreatestDegree = 40;  // what g 0.95 is cut at
-constexpr double kThick = 0.6;       // vertical optical depth by scattering
-constexpr int kThickSamples = 12;    // 6 are up to 16 % off at visibility 2 km
+constexpr double kThick = 0.4;       // vertical optical depth by scattering of the aerosol
+constexpr int kHazeSamples = 12;     // 6 are up to 16 % off at visibility 2 km
 
 }  // namespace
 
@@ -35,14 +35,14 @@ Settings sizes_of(Level level) {
       s.table_azimuths = 8, s.table_zeniths = 16;
       break;
     case Level::low:
-      s.heights = 16, s.suns = 28, s.sun_rows_per_interval = 6;
+      s.heights = 16, s.suns = 28;
       s.directions_up = 12, s.directions_down = 6, s.azimuths = 10, s.harmonics = 10;
       s.table_azimuths = 10, s.table_zeniths = 20;
       break;
     case Level::standard:
       break;
     case Level::fine:
-      s.heights = 28, s.suns = 44, s.sun_rows_per_interval = 6;
+      s.heights = 28, s.suns = 44;
       s.directions_up = 20, s.directions_down = 8, s.azimuths = 16, s.harmonics = 14;
       s.table_azimuths = 16, s.table_zeniths = 32;
       s.stop_below = 0.01;
@@ -53,21 +53,19 @@ Settings sizes_of(Level level) {
 
 /// What the rules look at: the worst of all bands.
 struct Difficulty {
-  double scattering_depth = 0;  // vertical, of air and aerosol
-  double aerosol_share = 0;     // of the scattering where the aerosol is densest
+  double aerosol_depth = 0;  // vertical, by scattering
+  double aerosol_share = 0;  // of the scattering where the aerosol is densest
   double albedo = 0;
 };
 
 Difficulty difficulty_of(const atmosphere::Medium& medium) {
   const double H = medium.top_height_km;
-  const double air_column = medium.rayleigh.vertical_column_km(H);
   const double aerosol_column = medium.aerosol.vertical_column_km(H);
   Difficulty worst;
   for (const atmosphere::SpectralBand& band : medium.bands) {
     worst.albedo = std::max(worst.albedo, band.ground_albedo);
-    worst.scattering_depth =
-        std::max(worst.scattering_depth, band.rayleigh_scattering_per_km * air_column +
-                                             band.aerosol_scattering_per_km * aerosol_column);
+    worst.aerosol_depth =
+        std::max(worst.aerosol_depth, band.aerosol_scattering_per_km * aerosol_column);
     constexpr int kSteps = 64;
     for (int i = 0; i < kSteps; ++i) {
       const double h = H * std::pow(double(i) / kSteps, kHeightExponent);
@@ -114,10 +112,12 @@ double moment_tolerance(Level level) {
 Settings settings_for(Level level, const atmosphere::Medium& medium) {
   Settings s = sizes_of(level);
   const Difficulty difficulty = difficulty_of(medium);
-  const bool thick = difficulty.scattering_depth > kThick;
+  // 0 clear .. 1 thick: at visibility 9 km it is nearly 1.
+  const double haze = std::clamp((difficulty.aerosol_depth - 0.1) / 0.4, 0.0, 1.0);
+  const bool thick = difficulty.aerosol_depth > kThick;
 
   const int degree = degree_needed(medium.aerosol_g, difficulty.aerosol_share,
-                                   moment_tolerance(level) * (thick ? 0.5 : 1));
+                                   moment_tolerance(level) * (1 - 0.5 * haze));
   if (degree > s.harmonics) {
     const double growth = double(degree) / s.harmonics;
     s.harmonics = degree;
@@ -131,10 +131,8 @@ Settings settings_for(Level level, const atmosphere::Medium& medium) {
   }
   // The nodes of a high top are spread over the heights that scatter as those of a low one.
   s.heights = int(std::lround(s.heights * height_growth(medium)));
-  if (thick) {
-    s.heights = int(std::lround(1.6 * s.heights));
-    s.samples = std::max(s.samples, kThickSamples);
-  }
+  if (thick) s.heights = int(std::lround(1.6 * s.heights));
+  s.samples += int(std::lround(haze * (kHazeSamples - s.samples)));
   if (thick || difficulty.albedo > 0.5) s.stop_below = std::min(s.stop_below, 0.01);
   return s;
 }

@@ -16,7 +16,7 @@ const std::vector<std::string>& level_names();
 struct Settings {
   int heights = 20;                             // points, clustered at the ground
   int suns = 36;                                // sun nodes at which points are computed
-  int sun_rows_per_interval = 8;                // rows of the table between two sun nodes
+  int sun_rows_per_interval = 6;                // rows of the table between two sun nodes
   int directions_up = 16, directions_down = 6;  // quadrature nodes above and below the horizon
   int azimuths = 12;                            // quadrature nodes over half the circle
   int harmonics = 12;                           // greatest degree l

@@ -34,12 +34,16 @@ double scattering_top_km(const atmosphere::Medium& medium);
 /// about half of acos(R / (R + h)) below the horizon, h being scattering_top_km.
 SunWarp sun_warp(const atmosphere::Medium& medium);
 
-/// Slope at a node by its neighbouring secants: their mean, at most 3 times the smaller, 0 at an
-/// extremum (Fritsch and Carlson 1980: no overshoot).
+/// Slope at a node by its neighbouring secants: (2 geometric mean + harmonic mean) / 3, at most 3
+/// times the smaller (no overshoot: Fritsch and Carlson 1980), 0 at an extremum. Light in twilight
+/// and in thick air falls exponentially: for exp(-a x) this mean is the true slope up to a^5, where
+/// the arithmetic mean is a^3 / 6 too steep (ground light 3 % too dark at sun 97).
 inline double limited_slope(double before, double after) {
   if (before * after <= 0) return 0;
+  const double harmonic = 2 * before * after / (before + after);
+  const double geometric = std::copysign(std::sqrt(before * after), before);
   const double least = std::min(std::abs(before), std::abs(after));
-  return std::copysign(std::min(0.5 * std::abs(before + after), 3 * least), before);
+  return std::copysign(std::min(std::abs(2 * geometric + harmonic) / 3, 3 * least), before);
 }
 
 /// Rows of one quantity (`stride` numbers apart, `channels` of them at each) from its nodes.
