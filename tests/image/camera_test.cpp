@@ -261,6 +261,13 @@ TEST(OnePixelImage, SeesSomethingInEveryProjection) {
   }
 }
 
+TEST(HorizonCoverage, FollowsTheHorizonOfAHighCamera) {
+  const SolidAngle pixel = 1e-4 * sr;
+  for (const double over : {-0.006, -0.002, 0.0, 0.003, 0.007})
+    EXPECT_NEAR(horizon_coverage(-19.8 * deg + over * rad, pixel, -19.8 * deg),
+                horizon_coverage(over * rad, pixel), 1e-12);
+}
+
 TEST(HorizonCoverage, GoesFromNoneToAllOverOnePixel) {
   const SolidAngle pixel = 1e-4 * sr;  // 0.01 rad wide
   EXPECT_EQ(horizon_coverage(-0.005 * rad, pixel), 0);

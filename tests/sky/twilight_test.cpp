@@ -117,5 +117,28 @@ TEST(Twilight, MeanLuminanceRisesWithTheSunWithoutAStep) {
   }
 }
 
+TEST(ComputedSkyLuminance, FallsWithoutAStepFromTheZenithToTheNight) {
+  double last = 1e9;
+  for (double el = 90; el > -40; el -= 0.02) {
+    const double now = mean_computed_sky_luminance(el * deg).in(cd_per_m2);
+    EXPECT_LE(now, last) << el;
+    // Dusk loses at most 2 stops a degree.
+    EXPECT_GT(now, last < 1e8 ? last * 0.97 : 0) << el;
+    last = now;
+  }
+  EXPECT_NEAR(last * std::numbers::pi, clear_sky_illuminance(-18 * deg).in(lux), 0.05 * 6.5e-4);
+}
+
+// The published twilight is that of a true sun, the computed one of the sun as it is seen; with an
+// air of its own, within a factor of 1.6.
+TEST(ComputedSkyLuminance, TwilightIsThePublishedOne) {
+  for (double el = -2; el >= -12; el -= 0.5) {
+    const double computed = mean_computed_sky_luminance(el * deg).in(cd_per_m2)*std::numbers::pi;
+    const double published = clear_sky_illuminance(el * deg).in(lux);
+    EXPECT_GT(computed / published, 1 / 1.6) << el;
+    EXPECT_LT(computed / published, 1.6) << el;
+  }
+}
+
 }  // namespace
 }  // namespace skylapse::sky
