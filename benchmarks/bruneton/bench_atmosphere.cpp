@@ -1,15 +1,21 @@
 // Time and memory of the atmosphere's tables and slices on OpenGL, and their distance from the
 // double-precision twin.
 //   bench_atmosphere [--backend egl|osmesa] [--level NAME] [--bands N] [--runs N] [--twin]
+//   bench_atmosphere --draws N [--seed S]: random single directions over the whole domain, on
+//   OpenGL
+//     and on the twin; counts what is not finite or not physical, and prints their distance
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
+#include <random>
 #include <string>
 #include <thread>
 
+#include "core/parallel.h"
 #include "sky/atmosphere/atmosphere.h"
 #include "sky/bruneton/gpu_model.h"
 #include "sky/bruneton/twin.h"
@@ -26,6 +32,8 @@ struct Arguments {
   std::vector<int> bands{4, 16};
   int runs = 5;
   bool twin = false;
+  int draws = 0;
+  unsigned seed = 1;
 };
 
 double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
@@ -145,6 +153,70 @@ void measure_slices(const std::shared_ptr<gpu::Context>& context, int bands,
     }
 }
 
+Query random_query(std::mt19937& random) {
+  std::uniform_real_distribution<double> share(0, 1);
+  const double u = share(random), v = share(random);
+  const double height_km = u < 0.1 ? 0 : u < 0.6 ? 100 * v * v * v : 1e5 * v * v * v * v;
+  return {height_km * km, 180 * share(random) * deg, 180 * share(random) * deg,
+          360 * share(random) * deg};
+}
+
+size_t not_physical(const Answer& answer) {
+  size_t wrong = 0;
+  for (size_t b = 0; b < answer.radiance.size(); ++b)
+    wrong += std::isfinite(answer.radiance[b]) && answer.radiance[b] >= 0 &&
+                     answer.transmittance[b] >= 0 && answer.transmittance[b] <= 1 &&
+                     answer.sun_transmittance[b] >= 0 && answer.sun_transmittance[b] <= 1
+                 ? 0
+                 : 1;
+  return wrong;
+}
+
+/// Distances of radiances, relative to the twin's or to 1e-6 of a bright sky.
+struct Draws {
+  size_t count = 0, wrong_gl = 0, wrong_twin = 0;
+  std::vector<float> errors{};
+
+  void add(const Answer& gl, const Answer& twin) {
+    ++count;
+    wrong_gl += not_physical(gl);
+    wrong_twin += not_physical(twin);
+    constexpr double kBrightSky = 0.1;  // W m^-2 sr^-1 nm^-1
+    for (size_t b = 0; b < twin.radiance.size(); ++b)
+      errors.push_back(float(std::abs(gl.radiance[b] - twin.radiance[b]) /
+                             std::max(twin.radiance[b], 1e-6 * kBrightSky)));
+  }
+};
+
+void measure_draws(const std::shared_ptr<gpu::Context>& context, const Arguments& arguments) {
+  const atmosphere::Medium medium = medium_of(3);
+  const auto tables = std::make_shared<const Tables>(
+      value_or_exit(precompute(*context, medium, settings_for(Level::draft, medium))));
+  const GpuModel model = value_or_exit(GpuModel::create(context, *tables));
+  const Twin twin(tables);
+  std::mt19937 random(arguments.seed);
+  Draws draws;
+  while (draws.count < size_t(arguments.draws)) {
+    std::vector<Query> queries(std::min<size_t>(1 << 15, arguments.draws - draws.count));
+    for (Query& query : queries) query = random_query(random);
+    const auto gl =
+        value_or_exit(model.answer(queries, {.multiple_scattering = true, .ground = true}));
+    std::vector<Answer> expected(queries.size());
+    parallel_for_ranges(queries.size(), 16, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) expected[i] = twin.answer(queries[i], {.ground = true});
+    });
+    for (size_t i = 0; i < queries.size(); ++i) draws.add(gl[i], expected[i]);
+  }
+  std::sort(draws.errors.begin(), draws.errors.end());
+  const auto share = [&](double p) {
+    return draws.errors[size_t(p * double(draws.errors.size() - 1))];
+  };
+  fmt::print("{} draws (seed {}): not finite or not physical: OpenGL {}, twin {}\n", draws.count,
+             arguments.seed, draws.wrong_gl, draws.wrong_twin);
+  fmt::print("  distance of radiance: median {:.1e}, p99 {:.1e}, p99.99 {:.1e}, greatest {:.1e}\n",
+             share(0.5), share(0.99), share(0.9999), draws.errors.back());
+}
+
 Arguments parse(int argc, char** argv) {
   Arguments arguments;
   for (int i = 1; i < argc; ++i) {
@@ -159,6 +231,10 @@ Arguments parse(int argc, char** argv) {
       arguments.runs = std::max(1, std::atoi(value.c_str()));
     else if (name == "--twin")
       arguments.twin = true;
+    else if (name == "--draws")
+      arguments.draws = std::atoi(value.c_str());
+    else if (name == "--seed")
+      arguments.seed = unsigned(std::atoi(value.c_str()));
   }
   return arguments;
 }
@@ -171,6 +247,10 @@ int main(int argc, char** argv) {
   const gpu::ContextInfo& info = context->info();
   fmt::print("{}: {}, OpenGL {}, {} cores\n", info.backend, info.renderer, info.version,
              std::thread::hardware_concurrency());
+  if (arguments.draws > 0) {
+    measure_draws(context, arguments);
+    return 0;
+  }
   for (const Level level : arguments.levels)
     for (const int bands : arguments.bands) measure_tables(*context, level, bands, arguments);
   for (const int bands : arguments.bands) measure_slices(context, bands, arguments);

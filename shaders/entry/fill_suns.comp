@@ -9,11 +9,14 @@ layout(std140, binding = 3) uniform GroupBlock { int group; };
 const int INTERVALS = SUNS - 1;
 const int ITEMS = HEIGHTS * TABLE_ZENITHS * INTERVALS * TABLE_AZIMUTHS;
 
-// Mean of both secants, at most 3 times the smaller, 0 at an extremum.
+// As limited_slope of sun_rows.h, with the products of two small secants kept above float's least.
 vec4 limited_slope(vec4 before, vec4 after) {
-  vec4 least = min(abs(before), abs(after));
-  vec4 slope = sign(before) * min(0.5 * abs(before + after), 3.0 * least);
-  return mix(slope, vec4(0.0), lessThanEqual(before * after, vec4(0.0)));
+  vec4 a = abs(before);
+  vec4 b = abs(after);
+  vec4 geometric = sqrt(a) * sqrt(b);
+  vec4 harmonic = 2.0 * a * (b / max(a + b, vec4(1e-37)));
+  vec4 slope = sign(before) * min((2.0 * geometric + harmonic) / 3.0, 3.0 * min(a, b));
+  return mix(slope, vec4(0.0), lessThanEqual(sign(before) * sign(after), vec4(0.0)));
 }
 
 void main() {

@@ -1,13 +1,11 @@
 #pragma once
 // Small matrix products, one item times a matrix each: output_j = sum over k of input_k * M_kj.
-// The entry defines ITEMS, and before including this
+// The entry defines ITEMS, the host BLOCK, and the entry before including this
 //   int terms(int item); int outputs(int item);
 //   vec4 load(int group, int item, int k);
 //   float factor(int item, int k, int j);  any finite value for j >= outputs
 //   void store(int group, int item, int j, vec4 value);
 // One invocation makes BLOCK outputs of one item, so that each input is loaded once for all.
-
-const int BLOCK = 8;
 
 void main() {
   int item = int(gl_GlobalInvocationID.x);

@@ -56,6 +56,8 @@ using AnyFilter = gpu::AnyContext;
 TEST_P(AnyFilter, ByHandIsTheSamplersInSoftware) {
   if (!context_->info().software) GTEST_SKIP() << "this driver's samplers are not exact";
   const gpu::TextureSize size = source_size(reference_tables()->settings);
+  const Tables& tables = *reference_tables();
+  const text::AirParameters air = air_parameters(tables.medium, tables.settings);
   std::vector<glm::vec4> points;
   for (int i = 0; i < 2000; ++i) {
     const auto share = [&](double step) { return std::fmod(step * i, 1.0); };
@@ -63,8 +65,8 @@ TEST_P(AnyFilter, ByHandIsTheSamplersInSoftware) {
       points.emplace_back(share(0.371) * size.width - 0.5, share(0.617) * size.height - 0.5,
                           share(0.839) * size.depth - 0.5, 0);
     else
-      points.emplace_back(share(0.371) * kColumnHeights - 0.5,
-                          share(0.617) * kColumnDistances - 0.5, 0, 1);
+      points.emplace_back(share(0.371) * (air.columns_height_last + 1) - 0.5,
+                          share(0.617) * (air.columns_distance_last + 1) - 0.5, 0, 1);
   }
   const auto sampled = looked_up(*context_, Filter::sampler, points);
   const auto exact = looked_up(*context_, Filter::exact, points);

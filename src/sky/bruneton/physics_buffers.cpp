@@ -50,7 +50,10 @@ Result<PhysicsBuffers> PhysicsBuffers::create(const gpu::Functions& gl, const Ph
 
   std::vector<glm::vec4> nodes;
   for (const glm::dvec3& column : columns.nodes()) nodes.emplace_back(column, 0);
-  auto texture = gpu::Texture::create(gl, {kColumnDistances, kColumnHeights}, &nodes[0][0]);
+  const int heights = int(data.air.columns_height_last) + 1;
+  const int distances = int(data.air.columns_distance_last) + 1;
+  assert(nodes.size() == size_t(heights) * distances);
+  auto texture = gpu::Texture::create(gl, {distances, heights}, &nodes[0][0]);
   if (!texture) return texture.error();
   buffers.columns_ = std::move(texture).value();
   return buffers;

@@ -14,7 +14,13 @@ namespace skylapse::sky::bruneton {
 namespace {
 
 constexpr int kGroupSize = 32;  // local_size_x of all passes
-constexpr int kBlock = 8;       // BLOCK of shaders/shared/contraction.glsl
+
+/// BLOCK of shaders/shared/contraction.glsl for so many outputs: all are made in equal blocks.
+int block_of(int outputs) {
+  constexpr int kLargest = 16;
+  const int blocks = gpu::groups_for(outputs, kLargest);
+  return gpu::groups_for(outputs, blocks);
+}
 
 /// What does not depend on bands, made once on the host.
 struct HostWork {
@@ -182,19 +188,25 @@ class Passes {
                                          {"ROWS_PER_INTERVAL", size_.sun_rows_per_interval},
                                          {"DARK_END", host_.warp.dark_end ? 1 : 0}};
     defines.insert(defines.end(), sizes.begin(), sizes.end());
-    const std::pair<gpu::Program*, const char*> programs[] = {
-        {&first_order_, "first_order"},
-        {&next_order_, "next_order"},
-        {&gather_azimuths_, "gather_azimuths"},
-        {&gather_zeniths_, "gather_zeniths"},
-        {&spread_zeniths_, "spread_zeniths"},
-        {&spread_azimuths_, "spread_azimuths"},
-        {&fill_suns_, "fill_suns"},
-        {&sum_source_, "sum_source"},
-        {&ground_light_, "ground_light"},
-        {&add_tail_, "add_tail"}};
-    for (const auto& [program, name] : programs) {
-      auto made = gpu::Program::create(gl_, std::string("entry/") + name + ".comp", defines);
+    const int orders = size_.harmonics + 1;
+    const struct {
+      gpu::Program* program;
+      const char* name;
+      int outputs = 1;  // of a contraction
+    } programs[] = {{&first_order_, "first_order"},
+                    {&next_order_, "next_order"},
+                    {&gather_azimuths_, "gather_azimuths", orders},
+                    {&gather_zeniths_, "gather_zeniths", orders},
+                    {&spread_zeniths_, "spread_zeniths", size_.table_zeniths},
+                    {&spread_azimuths_, "spread_azimuths", size_.table_azimuths},
+                    {&fill_suns_, "fill_suns"},
+                    {&sum_source_, "sum_source"},
+                    {&ground_light_, "ground_light"},
+                    {&add_tail_, "add_tail"}};
+    for (const auto& [program, name, outputs] : programs) {
+      std::vector<gpu::Define> with_block = defines;
+      with_block.push_back({"BLOCK", block_of(outputs)});
+      auto made = gpu::Program::create(gl_, std::string("entry/") + name + ".comp", with_block);
       if (!made) return made.error();
       *program = std::move(made).value();
     }
@@ -207,8 +219,8 @@ class Passes {
     program.dispatch(gl_, {gpu::groups_for(rays() * size_.suns * size_.azimuths, kGroupSize)});
   }
   void contract(const gpu::Program& program, int items, int outputs) const {
-    program.dispatch(
-        gl_, {gpu::groups_for(items, kGroupSize), gpu::groups_for(outputs, kBlock), range_.count});
+    program.dispatch(gl_, {gpu::groups_for(items, kGroupSize),
+                           gpu::groups_for(outputs, block_of(outputs)), range_.count});
   }
   [[nodiscard]] std::vector<OrderSums> read_groups(const gpu::Buffer& buffer, int items) const {
     std::vector<glm::vec4> values(size_t(items) * range_.count);
