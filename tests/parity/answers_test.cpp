@@ -50,11 +50,13 @@ TEST_P(AnyAnswer, IsTheTwinsOverTheWholeDomain) {
     const Answer expected = twin.answer(queries[i], {.ground = true});
     ASSERT_EQ(answers[i].radiance.size(), expected.radiance.size());
     for (size_t b = 0; b < expected.radiance.size(); ++b) {
-      // 1e-3 of the value, or 1e-7 of a bright sky (0.1): what float leaves of deep twilight.
-      EXPECT_NEAR(answers[i].radiance[b], expected.radiance[b], 1e-3 * expected.radiance[b] + 1e-8)
+      // Seen in 1e5 draws: 7e-5 (bench_atmosphere --draws); 1e-7 is a millionth of a bright sky.
+      EXPECT_NEAR(answers[i].radiance[b], expected.radiance[b],
+                  3e-4 * std::max(expected.radiance[b], 1e-7))
           << text_of(queries[i]);
       EXPECT_NEAR(answers[i].transmittance[b], expected.transmittance[b], 1e-4)
           << text_of(queries[i]);
+      // The table of columns between its nodes against quadrature.
       EXPECT_NEAR(answers[i].sun_transmittance[b], expected.sun_transmittance[b], 2e-3)
           << text_of(queries[i]);
     }

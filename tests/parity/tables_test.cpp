@@ -49,9 +49,10 @@ void expect_alike(const Tables& gl, const Tables& twin) {
   ASSERT_EQ(gl.source[0].size(), twin.source[0].size());
   EXPECT_EQ(gl.orders, twin.orders);
   // Some hundred float operations lie between the medium and a texel, 6e-8 each; llvmpipe's
-  // exponential and logarithm are good to about 1e-6 and 1e-5 of a sun row.
-  EXPECT_LT(source_distance(gl, twin), 2e-3);
-  EXPECT_LT(ground_distance(gl, twin), 1e-3);
+  // exponential and logarithm are good to about 1e-6, which moves the sun rows of twilight. Seen:
+  // up to 6e-5; other drivers may round otherwise.
+  EXPECT_LT(source_distance(gl, twin), 2e-4);
+  EXPECT_LT(ground_distance(gl, twin), 2e-4);
   ASSERT_EQ(gl.tail_ratio.size(), twin.medium.bands.size());
   for (size_t b = 0; b < twin.tail_ratio.size(); ++b) {
     EXPECT_NEAR(gl.tail_ratio[b], twin.tail_ratio[b], 1e-4);
