@@ -72,10 +72,10 @@ std::string atmosphere_text(const plan::Plan& plan, const plan::Cost& cost) {
   const config::Sky& sky = plan.job.sky;
   std::string text = fmt::format("atmosphere: {} wavelengths", sky.wavelengths);
   if (plan.model == config::SkyModel::bruneton)
-    text += fmt::format(", level {}, {} set{} of tables ({} on disk, {} to compute unless cached)",
-                        sky::bruneton::name_of(sky.level), cost.table_sets,
-                        cost.table_sets == 1 ? "" : "s", bytes_text(cost.table_bytes),
-                        duration_text(cost.table_core_seconds / available_cores()));
+    text += fmt::format(
+        ", level {}, {} set{} of tables ({} of memory, {} to compute unless cached)",
+        sky::bruneton::name_of(sky.level), cost.table_sets, cost.table_sets == 1 ? "" : "s",
+        bytes_text(cost.table_bytes), duration_text(cost.table_core_seconds / available_cores()));
   return text + "\n";
 }
 

@@ -15,7 +15,7 @@ struct Rate {
 };
 
 constexpr double kSkyNs = 7;       // either model
-constexpr double kSliceMs = 25;    // slice, its upload and download, disc
+constexpr double kSliceMs = 60;    // slice of 16 wavelengths on software GL, and the disc
 constexpr double kDisplayNs = 51;  // exposure, display transform, dither
 constexpr double kMovieNs = 58;    // reading back and x264
 
@@ -38,17 +38,17 @@ Rate rate_of(const config::Output& output) {
   return {kMovieNs, 0.005};
 }
 
-/// Core seconds to compute the tables of four wavelengths.
+/// Core seconds to compute the tables of four wavelengths on software GL, shaders compiled.
 double precomputation_s(sky::bruneton::Level level) {
   switch (level) {
     case sky::bruneton::Level::draft:
-      return 0.2;
+      return 0.1;
     case sky::bruneton::Level::low:
-      return 0.7;
+      return 0.3;
     case sky::bruneton::Level::standard:
-      return 1.6;
+      return 0.55;
     case sky::bruneton::Level::fine:
-      return 6;
+      return 2.2;
   }
   return 0;
 }

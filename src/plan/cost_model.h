@@ -9,7 +9,7 @@ struct Cost {
   double bytes = 0;               // written
   int table_sets = 0;             // of the atmosphere: one for each air, fewer where air changes
   double table_core_seconds = 0;  // to compute them all
-  double table_bytes = 0;         // they take in the cache
+  double table_bytes = 0;         // of memory they take
 };
 
 /// Estimate for the given frames (numbers from 1). The rates per pixel are those that
