@@ -9,15 +9,21 @@
 #include "sky/bruneton/twin_march.h"
 
 namespace skylapse::sky::bruneton {
+
 Twin::Twin(std::shared_ptr<const Tables> tables)
-    : tables_(std::move(tables)), columns_(make_columns(tables_->medium)) {}
+    : tables_(std::move(tables)), columns_(make_columns(tables_->medium)) {
+  PhysicsData data = physics_data(tables_->medium, tables_->settings, MarchSettings{}.samples);
+  data.columns = columns_->nodes().data();
+  data.tables = tables_.get();
+  data_ = std::make_shared<const PhysicsData>(std::move(data));
+}
 
 const atmosphere::Medium& Twin::medium() const { return tables_->medium; }
 
 Answer Twin::answer(const Query& query, const MarchSettings& march) const {
   const double h = query.height.in(km);
   assert(std::isfinite(h) && h >= 0);
-  const PhysicsData data = march_data(*tables_, *columns_, march.samples);
+  const PhysicsData data = march_data(*data_, march.samples);
   const bool multiple = march.multiple_scattering && !tables_->source.empty();
   const double mu = cos(query.view_zenith), mu_s = cos(query.sun_zenith);
   const double a = sin((query.view_zenith - query.sun_zenith) / 2), b = sin(query.azimuth / 2);
@@ -45,12 +51,11 @@ Answer Twin::answer(const Query& query, const MarchSettings& march) const {
 
 std::vector<double> Twin::transmittance(Length height, Angle zenith) const {
   const double h = height.in(km);
-  const PhysicsData data = physics_data(medium(), tables_->settings, 2);
-  Geometry text(data);
+  Geometry text(*data_);
   const text::Ray ray = make_ray(*columns_, h, cos(zenith));
   Bands result{{}, medium().bands.size()};
   const glm::dvec3 path = columns_->paths().columns(ray.height, ray.mu, 0, ray.length);
-  for (const text::BandGroup& band : data.groups)
+  for (const text::BandGroup& band : data_->groups)
     result.add(ray.hits_ground > 0 ? glm::dvec4(0) : glm::exp(-text.optical_depth(band, path)));
   return result.values;
 }
@@ -62,7 +67,7 @@ Twin::AerialPerspective Twin::aerial_perspective(const glm::dvec3& from_km, cons
   const double distance = glm::length(to_km - from_km), radius = glm::length(from_km);
   if (distance <= 0 || radius <= 0)
     return {std::vector<double>(count, 0.0), std::vector<double>(count, 1.0)};
-  const PhysicsData data = march_data(*tables_, *columns_, march.samples);
+  const PhysicsData data = march_data(*data_, march.samples);
   const bool multiple = march.multiple_scattering && !tables_->source.empty();
   const glm::dvec3 direction = (to_km - from_km) / distance;
   const double h = std::max(radius - medium().bottom_radius_km, 0.0);
@@ -84,7 +89,7 @@ Twin::AerialPerspective Twin::aerial_perspective(const glm::dvec3& from_km, cons
 
 SkySlice Twin::slice(Length camera_height, Angle sun_zenith, const SliceGrid& grid,
                      const MarchSettings& march) const {
-  const PhysicsData data = march_data(*tables_, *columns_, march.samples);
+  const PhysicsData data = march_data(*data_, march.samples);
   const bool multiple = march.multiple_scattering && !tables_->source.empty();
   const std::vector<SliceRow> rows = slice_rows(*columns_, camera_height.in(km), grid);
   const double mu_s = cos(sun_zenith);

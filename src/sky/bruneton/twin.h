@@ -21,6 +21,7 @@ struct MarchSettings {
 /// A medium with its table of optical columns: Rayleigh, aerosol and ozone from any height in any
 /// direction to the top, free of wavelength. Costs some 10 ms to make.
 class Columns;
+struct PhysicsData;
 std::shared_ptr<const Columns> make_columns(const atmosphere::Medium& medium);
 
 /// The tables in double on all cores; the stored numbers are rounded to float.
@@ -61,6 +62,7 @@ class Twin {
  private:
   std::shared_ptr<const Tables> tables_;
   std::shared_ptr<const Columns> columns_;
+  std::shared_ptr<const PhysicsData> data_;  // for marches of the default fineness
 };
 
 }  // namespace skylapse::sky::bruneton

@@ -51,14 +51,13 @@ Twin::Irradiance Twin::irradiance(Length height, Angle sun_zenith) const {
   for (size_t i = 0; i < samples.size(); ++i)
     for (size_t b = 0; b < count; ++b) result.sky[b] += light[i][b] * samples[i].weight;
 
-  const PhysicsData data = physics_data(medium(), tables_->settings, 2);
-  Geometry text(data);
+  Geometry text(*data_);
   const double cosine = text.sun_mean_cosine(mu_s);
   if (cosine <= 0) return result;
   const glm::dvec3 to_sun = columns_to_sun(*columns_, h, mu_s);
   for (size_t b = 0; b < count; ++b)
     result.sun[b] = medium().bands[b].solar_irradiance * cosine *
-                    std::exp(-text.optical_depth(data.groups[b / 4], to_sun)[int(b % 4)]);
+                    std::exp(-text.optical_depth(data_->groups[b / 4], to_sun)[int(b % 4)]);
   return result;
 }
 

@@ -18,10 +18,12 @@ struct Bands {
   }
 };
 
-inline PhysicsData march_data(const Tables& tables, const Columns& columns, int samples) {
-  PhysicsData data = physics_data(tables.medium, tables.settings, samples);
-  data.columns = columns.nodes().data();
-  data.tables = &tables;
+/// The same data for another number of samples a piece.
+inline PhysicsData march_data(const PhysicsData& base, int samples) {
+  PhysicsData data = base;
+  if (int(data.gauss.size()) == samples) return data;
+  data.air.march_samples = samples;
+  data.gauss = gauss_nodes(samples);
   return data;
 }
 
