@@ -19,6 +19,15 @@ vec4 limited_slope(vec4 before, vec4 after) {
   return mix(slope, vec4(0.0), lessThanEqual(sign(before) * sign(after), vec4(0.0)));
 }
 
+// FOLD as in shaders/shared/physics_host.glsl.
+void put(int azimuth, int row, int slab, vec4 value) {
+  int height = slab / TABLE_ZENITHS;
+  imageStore(table,
+             ivec3(azimuth + TABLE_AZIMUTHS * (height % FOLD), row,
+                   slab % TABLE_ZENITHS + TABLE_ZENITHS * (height / FOLD)),
+             value);
+}
+
 void main() {
   int item = int(gl_GlobalInvocationID.x);
   if (item >= ITEMS) return;
@@ -40,8 +49,8 @@ void main() {
     float u = 1.0 - t;
     vec4 value = u * u * (1.0 + 2.0 * t) * here + t * t * (3.0 - 2.0 * t) * next +
                  t * u * u * slope_here - t * t * u * slope_next;
-    imageStore(table, ivec3(azimuth, interval * ROWS_PER_INTERVAL + k, slab), value);
+    put(azimuth, interval * ROWS_PER_INTERVAL + k, slab, value);
   }
   if (interval == INTERVALS - 1)
-    imageStore(table, ivec3(azimuth, INTERVALS * ROWS_PER_INTERVAL, slab), next);
+    put(azimuth, INTERVALS * ROWS_PER_INTERVAL, slab, next);
 }

@@ -1,6 +1,8 @@
 #pragma once
 // What GL provides to the physics text (shaders/atmosphere/README.md lists it). Defines: GROUPS,
-// MAX_GAUSS, and EXACT_FILTER: 1 where the samplers' interpolation is not that of float.
+// MAX_GAUSS, EXACT_FILTER: 1 where the samplers' interpolation is not that of float, and FOLD: how
+// many heights stand side by side along the azimuths of a source texture (1 unless it would be
+// deeper than a texture may be).
 
 #define Real float
 const float PI = 3.14159265358979;
@@ -78,7 +80,16 @@ vec3 fetch_columns(vec2 texel) {
   return filtered(columns_table, texel.yx).xyz;  // distances run fastest in memory
 }
 
-vec4 fetch_source(int g, vec3 texel) { return filtered(source_table[g], texel); }
+vec4 fetch_source(int g, vec3 texel) {
+#if FOLD > 1
+  float zeniths = air.zenith_last + 1.0;
+  float height = floor((texel.z + 0.25) / zeniths);
+  float story = floor((height + 0.25) / float(FOLD));
+  texel.x += (air.azimuth_last + 1.0) * (height - story * float(FOLD));
+  texel.z += zeniths * (story - height);
+#endif
+  return filtered(source_table[g], texel);
+}
 
 vec4 fetch_ground(int g, float row) {
   int rows = int(air.sun_row_last) + 1;

@@ -32,14 +32,15 @@ std::vector<glm::vec4> looked_up(gpu::Context& context, Filter filter,
   std::vector<gpu::ShaderFile> files(gpu::shader_files().begin(), gpu::shader_files().end());
   files.push_back(kEntry);
   const Status status = context.run([&](const gpu::Functions& gl) -> Status {
-    const auto program = gpu::Program::create(gl, kEntry.path, physics_defines(1, filter), files);
+    const auto program =
+        gpu::Program::create(gl, kEntry.path, physics_defines(1, 1, filter), files);
     if (!program) return program.error();
     const auto physics = PhysicsBuffers::create(gl, physics_data(tables.medium, tables.settings, 2),
                                                 columns, {0, 1});
     if (!physics) return physics.error();
     std::vector<gpu::Texture> source;
-    source.push_back(
-        value_of(gpu::Texture::create(gl, source_size(tables.settings), tables.source[0].data())));
+    source.push_back(value_of(
+        gpu::Texture::create(gl, source_size(tables.settings, 1), tables.source[0].data())));
     physics->bind(gl, source);
     const gpu::Buffer buffer = gpu::Buffer::of(gl, points);
     buffer.bind_storage(gl, 1);
@@ -55,7 +56,7 @@ using AnyFilter = gpu::AnyContext;
 
 TEST_P(AnyFilter, ByHandIsTheSamplersInSoftware) {
   if (!context_->info().software) GTEST_SKIP() << "this driver's samplers are not exact";
-  const gpu::TextureSize size = source_size(reference_tables()->settings);
+  const gpu::TextureSize size = source_size(reference_tables()->settings, 1);
   const Tables& tables = *reference_tables();
   const text::AirParameters air = air_parameters(tables.medium, tables.settings);
   std::vector<glm::vec4> points;

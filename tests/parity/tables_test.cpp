@@ -73,6 +73,22 @@ TEST_P(AnyTables, OfOddSizesAndTwoRangesOfGroupsAreTheTwins) {
                precompute_twin(medium, odd_settings()));
 }
 
+TEST_P(AnyTables, OfMoreHeightsThanATextureIsDeepAreTheTwins) {
+  Settings settings = odd_settings();
+  settings.heights = 43;
+  settings.table_zeniths = context_->info().max_texture_3d / 40;
+  ASSERT_GT(settings.heights * settings.table_zeniths, context_->info().max_texture_3d);
+  const atmosphere::Medium medium = atmosphere::reference_medium();
+  const Tables twin = precompute_twin(medium, settings);
+  expect_alike(value_of(precompute(*context_, medium, settings)), twin);
+  const auto model = GpuModel::create(context_, twin);
+  ASSERT_TRUE(model.ok()) << model.error().message;
+  const Query query{2 * km, 40 * deg, 70 * deg, 50 * deg};
+  EXPECT_NEAR(
+      value_of(model->answer({query}))[0].radiance[0],
+      Twin(std::make_shared<const Tables>(twin)).answer(query, {.ground = true}).radiance[0], 1e-6);
+}
+
 TEST_P(AnyTables, OfThickAirOverAWhiteGroundAreTheTwins) {
   atmosphere::Medium medium = atmosphere::reference_medium();
   for (atmosphere::SpectralBand& band : medium.bands) {

@@ -70,20 +70,23 @@ Result<Range> create_range(const gpu::Functions& gl, const Tables& tables, const
                   tables.ground_irradiance[g].end());
     range.physics.set_ground(gl, rows);
   }
+  const gpu::ContextInfo& info = gl.context->info();
+  const int fold = fold_of(tables.settings, info.max_texture_3d);
   const bool empty = tables.source.empty();
   for (int g = groups.first; g < groups.first + groups.count; ++g) {
-    const float black[4] = {0, 0, 0, 0};
-    auto texture =
-        gpu::Texture::create(gl, empty ? gpu::TextureSize{1, 1, 1} : source_size(tables.settings),
-                             empty ? black : tables.source[g].data());
+    const std::vector<float> texels = empty
+                                          ? std::vector<float>(4, 0.0f)
+                                          : folded_source(tables.source[g], tables.settings, fold);
+    auto texture = gpu::Texture::create(
+        gl, empty ? gpu::TextureSize{1, 1, 1} : source_size(tables.settings, fold), texels.data());
     if (!texture) return texture.error();
     range.source.push_back(std::move(texture).value());
   }
   range.xyz_weight = gpu::Buffer::of(gl, xyz_weights(tables.medium, groups));
   for (const auto& [program, entry] : {std::pair{&range.slice, "entry/slice.comp"},
                                        std::pair{&range.answer, "entry/answer.comp"}}) {
-    auto made = gpu::Program::create(gl, entry,
-                                     physics_defines(groups.count, filter_of(gl.context->info())));
+    auto made =
+        gpu::Program::create(gl, entry, physics_defines(groups.count, fold, filter_of(info)));
     if (!made) return made.error();
     *program = std::move(made).value();
   }

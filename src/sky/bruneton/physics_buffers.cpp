@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "gpu/functions.h"
+#include "gpu/program.h"
 
 namespace skylapse::sky::bruneton {
 
@@ -25,9 +26,10 @@ std::vector<float> floats_of(const std::vector<glm::dvec4>& values) {
   return values.empty() ? std::vector<float>{} : floats_of(&values[0][0], 4 * values.size());
 }
 
-std::vector<gpu::Define> physics_defines(int groups, Filter filter) {
+std::vector<gpu::Define> physics_defines(int groups, int fold, Filter filter) {
   return {{"GROUPS", groups},
           {"MAX_GAUSS", kMaxGauss},
+          {"FOLD", fold},
           {"EXACT_FILTER", filter == Filter::exact ? 1 : 0}};
 }
 
@@ -72,8 +74,31 @@ void PhysicsBuffers::bind(const gpu::Functions& gl, const std::vector<gpu::Textu
   for (size_t g = 0; g < source.size(); ++g) source[g].bind(gl, unsigned(1 + g));
 }
 
-gpu::TextureSize source_size(const Settings& settings) {
-  return {settings.table_azimuths, settings.sun_rows(), settings.table_zeniths * settings.heights};
+int fold_of(const Settings& settings, int max_texture_3d) {
+  int fold = 1;
+  while (fold < settings.heights &&
+         settings.table_zeniths * gpu::groups_for(settings.heights, fold) > max_texture_3d)
+    ++fold;
+  return fold;
+}
+
+gpu::TextureSize source_size(const Settings& settings, int fold) {
+  return {settings.table_azimuths * fold, settings.sun_rows(),
+          settings.table_zeniths * gpu::groups_for(settings.heights, fold)};
+}
+
+std::vector<float> folded_source(const std::vector<float>& source, const Settings& settings,
+                                 int fold) {
+  if (fold == 1) return source;
+  const size_t row = size_t(4) * settings.table_azimuths, rows = settings.sun_rows();
+  const size_t slabs = settings.table_zeniths;
+  std::vector<float> result(4 * source_size(settings, fold).texels(), 0.0f);
+  for (size_t h = 0; h < size_t(settings.heights); ++h)
+    for (size_t z = 0; z < slabs; ++z)
+      for (size_t j = 0; j < rows; ++j)
+        std::copy_n(&source[((h * slabs + z) * rows + j) * row], row,
+                    &result[(((h / fold * slabs + z) * rows + j) * fold + h % fold) * row]);
+  return result;
 }
 
 }  // namespace skylapse::sky::bruneton

@@ -36,7 +36,7 @@ inline Filter filter_of(const gpu::ContextInfo& info) {
   return info.software ? Filter::sampler : Filter::exact;
 }
 /// The defines that physics_host.glsl needs.
-std::vector<gpu::Define> physics_defines(int groups, Filter filter);
+std::vector<gpu::Define> physics_defines(int groups, int fold, Filter filter);
 
 /// Members run inside Context::run.
 class PhysicsBuffers {
@@ -54,7 +54,13 @@ class PhysicsBuffers {
   gpu::Texture columns_;
 };
 
+/// How many heights of a source texture stand side by side, so that no axis is longer than
+/// `max_texture_3d`.
+int fold_of(const Settings& settings, int max_texture_3d);
 /// Size of one group's source texture.
-gpu::TextureSize source_size(const Settings& settings);
+gpu::TextureSize source_size(const Settings& settings, int fold);
+/// One group of Tables::source in that texture's order.
+std::vector<float> folded_source(const std::vector<float>& source, const Settings& settings,
+                                 int fold);
 
 }  // namespace skylapse::sky::bruneton

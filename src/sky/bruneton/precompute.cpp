@@ -53,7 +53,12 @@ class Passes {
  public:
   Passes(const gpu::Functions& gl, const atmosphere::Medium& medium, const Settings& settings,
          const HostWork& host, GroupRange range)
-      : gl_(gl), medium_(medium), size_(settings), host_(host), range_(range) {}
+      : gl_(gl),
+        medium_(medium),
+        size_(settings),
+        host_(host),
+        range_(range),
+        fold_(fold_of(settings, gl.context->info().max_texture_3d)) {}
 
   Status create() {
     if (Status status = compile(); !status) return status;
@@ -65,7 +70,7 @@ class Passes {
     harmonics_ = HarmonicBuffers::create(gl_, medium_, host_.next.rows, size_, range_);
     suns_ = gpu::Buffer::of(gl_, host_.sun_mu);
     for (int g = 0; g < range_.count; ++g) {
-      auto texture = gpu::Texture::create(gl_, source_size(size_), nullptr);
+      auto texture = gpu::Texture::create(gl_, source_size(size_, fold_), nullptr);
       if (!texture) return texture.error();
       table_.push_back(std::move(texture).value());
       group_index_.push_back(gpu::Buffer::of(gl_, std::vector<int>{g, 0, 0, 0}));
@@ -176,7 +181,7 @@ class Passes {
 
   Status compile() {
     std::vector<gpu::Define> defines =
-        physics_defines(range_.count, filter_of(gl_.context->info()));
+        physics_defines(range_.count, fold_, filter_of(gl_.context->info()));
     const std::vector<gpu::Define> sizes{{"HEIGHTS", size_.heights},
                                          {"SUNS", size_.suns},
                                          {"ROWS", rows()},
@@ -237,6 +242,7 @@ class Passes {
   const Settings& size_;
   const HostWork& host_;
   GroupRange range_;
+  int fold_;
   gpu::Program first_order_, next_order_, gather_azimuths_, gather_zeniths_, spread_zeniths_,
       spread_azimuths_, fill_suns_, sum_source_, ground_light_, add_tail_;
   PhysicsBuffers physics_;
