@@ -4,15 +4,20 @@
 //   hard_media [--level standard] [--error 0.01] [--medium NAME] [--truth FILE] [--set
 //   KEY=VALUE]...
 //
+//   hard_media --blind SEED
+//
 // --truth keeps the path tracer's values in a file (written if it is not there), so that another
-// setting is judged in seconds; --set changes one number of the settings (heights=40). Prints one
-// line a medium, altitude and sun.
+// setting is judged in seconds; --set changes one number of the settings (heights=40). --blind
+// takes other media, random suns and views, and another seed of the path tracer: the rules of the
+// settings were made with the first list in view. Prints one line a medium, altitude and sun.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -53,9 +58,9 @@ HardMedium forward(double g) {
   return hard;
 }
 
-HardMedium white_ground() {
-  HardMedium hard{"albedo 1", atmosphere::reference_medium()};
-  for (atmosphere::SpectralBand& band : hard.medium.bands) band.ground_albedo = 1;
+HardMedium bright_ground(double albedo) {
+  HardMedium hard{fmt::format("albedo {:g}", albedo), atmosphere::reference_medium()};
+  for (atmosphere::SpectralBand& band : hard.medium.bands) band.ground_albedo = albedo;
   return hard;
 }
 
@@ -64,9 +69,13 @@ std::vector<HardMedium> hard_media() {
           hazy(20),
           hazy(9),
           hazy(2),
-          white_ground(),
+          bright_ground(1),
           forward(0.9),
           forward(0.95)};
+}
+
+std::vector<HardMedium> other_media() {
+  return {hazy(14), hazy(5), hazy(3), bright_ground(0.8), forward(0.86), forward(0.92)};
 }
 
 constexpr double kHeightsKm[] = {0.001, 2, 10, 40};
@@ -77,12 +86,24 @@ constexpr double kViewsDeg[][2] = {{0, 0},    {35, 0},   {60, 90},   {75, 0},
                                    {85, 180}, {88.5, 0}, {89.5, 60}, {93, 20},
                                    {95.5, 0}, {100, 30}, {120, 90},  {150, 150}};
 
-std::vector<Query> queries() {
+/// The list above; with a seed suns within 3 degrees of it and random views, every third of them
+/// within 5 degrees of the horizontal.
+std::vector<Query> queries(std::optional<uint64_t> seed) {
   std::vector<Query> all;
+  std::mt19937_64 random(seed.value_or(0));
+  std::uniform_real_distribution<double> one(-1, 1);
   for (const double height : kHeightsKm)
-    for (const double sun : kSunsDeg)
-      for (const auto& [zenith, azimuth] : kViewsDeg)
-        all.push_back({height * km, sun * deg, zenith * deg, azimuth * deg});
+    for (const double sun : kSunsDeg) {
+      const double moved = seed ? sun + 3 * one(random) : sun;
+      for (size_t i = 0; i < std::size(kViewsDeg); ++i) {
+        double zenith = kViewsDeg[i][0], azimuth = kViewsDeg[i][1];
+        if (seed) {
+          zenith = i % 3 == 0 ? 90 + 5 * one(random) : (std::acos(one(random)) * rad).in(deg);
+          azimuth = 180 * one(random);
+        }
+        all.push_back({height * km, moved * deg, zenith * deg, std::abs(azimuth) * deg});
+      }
+    }
   return all;
 }
 
@@ -96,6 +117,7 @@ struct Options {
   bruneton::Level level = bruneton::Level::standard;
   double error = 0.01;
   std::string medium, truth;
+  std::optional<uint64_t> blind;
   std::vector<std::pair<std::string, double>> changes;  // of the settings
 };
 
@@ -119,11 +141,12 @@ bool change(bruneton::Settings& s, const std::string& key, double value) {
   return false;
 }
 
-Truth trace(const atmosphere::Medium& medium, double error) {
+Truth trace(const atmosphere::Medium& medium, const Options& options) {
   Truth truth;
-  for (const Query& query : queries()) {
+  for (const Query& query : queries(options.blind)) {
     const monte_carlo::ReferenceAnswer answer = monte_carlo::reference_answer(
-        medium, query, {.samples = 400000, .relative_error = error, .seed = 17});
+        medium, query,
+        {.samples = 400000, .relative_error = options.error, .seed = options.blind.value_or(17)});
     std::vector<Value> values;
     for (size_t b = 0; b < medium.bands.size(); ++b)
       values.push_back({answer.radiance[b], answer.standard_error[b]});
@@ -133,17 +156,17 @@ Truth trace(const atmosphere::Medium& medium, double error) {
 }
 
 Truth truth_of(const HardMedium& hard, const Options& options) {
-  if (options.truth.empty()) return trace(hard.medium, options.error);
+  if (options.truth.empty()) return trace(hard.medium, options);
   std::string name = options.truth + "." + hard.name;
   std::replace(name.begin(), name.end(), ' ', '_');
   const size_t bands = hard.medium.bands.size();
-  Truth truth(queries().size(), std::vector<Value>(bands));
+  Truth truth(queries(options.blind).size(), std::vector<Value>(bands));
   if (std::ifstream file(name); file) {
     for (auto& values : truth)
       for (Value& value : values) file >> value.radiance >> value.error;
     if (file) return truth;
   }
-  truth = trace(hard.medium, options.error);
+  truth = trace(hard.medium, options);
   std::ofstream file(name);
   for (const auto& values : truth)
     for (const Value& value : values)
@@ -195,7 +218,7 @@ void judge(const HardMedium& hard, const Options& options) {
   const Truth truth = truth_of(hard, options);
   const double truth_time = seconds_since(start);
   const bruneton::Twin twin(tables);
-  const std::vector<Query> all = queries();
+  const std::vector<Query> all = queries(options.blind);
   std::vector<bruneton::Answer> answers(all.size());
   parallel_for_ranges(all.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) answers[i] = twin.answer(all[i]);
@@ -248,6 +271,8 @@ int main(int argc, char** argv) {
       options.medium = value;
     else if (key == "--truth")
       options.truth = value;
+    else if (key == "--blind")
+      options.blind = std::stoull(value);
     else if (bruneton::Settings trial; key == "--set" && value.find('=') != std::string::npos &&
                                        change(trial, value.substr(0, value.find('=')), 1))
       options.changes.emplace_back(value.substr(0, value.find('=')),
@@ -259,7 +284,7 @@ int main(int argc, char** argv) {
              100 * options.error);
   fmt::print("{:<22} {:>5} {:>7} {:>7} {:>7} {:>7} {:>8}\n", "", "count", "rms %", "noise %",
              "own %", "in se", "worst %");
-  for (const HardMedium& hard : hard_media())
+  for (const HardMedium& hard : options.blind ? other_media() : hard_media())
     if (options.medium.empty() || hard.name.find(options.medium) != std::string::npos)
       judge(hard, options);
   return 0;
