@@ -25,6 +25,7 @@ struct Egl {
   decltype(&eglGetError) GetError = nullptr;
   PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplayEXT = nullptr;
   PFNEGLQUERYDEVICESEXTPROC QueryDevicesEXT = nullptr;  // null where devices cannot be listed
+  PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceStringEXT = nullptr;
 };
 
 template <class Function>
@@ -63,6 +64,9 @@ Result<Egl> load_egl(const std::string& name) {
         egl.GetProcAddress("eglGetPlatformDisplayEXT"));
   if (!egl.GetPlatformDisplayEXT)
     return Error{ErrorCode::missing_backend, name + " lacks EGL_EXT_platform_base"};
+  if (has_word(client, "EGL_EXT_device_query") || has_word(client, "EGL_EXT_device_base"))
+    egl.QueryDeviceStringEXT = reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(
+        egl.GetProcAddress("eglQueryDeviceStringEXT"));
   if (has_word(client, "EGL_EXT_device_enumeration") || has_word(client, "EGL_EXT_device_base"))
     egl.QueryDevicesEXT =
         reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(egl.GetProcAddress("eglQueryDevicesEXT"));
@@ -181,9 +185,12 @@ std::vector<Candidate> egl_candidates(const std::string& library) {
   if (!egl.QueryDevicesEXT(count, devices.data(), &count)) return candidates;
   for (EGLint i = 0; i < count; ++i) {
     EGLDeviceEXT device = devices[i];
-    candidates.push_back({fmt::format("EGL device {}", i), [egl, device] {
-                            return open_surface(egl, EGL_PLATFORM_DEVICE_EXT, device);
-                          }});
+    const bool software =
+        egl.QueryDeviceStringEXT == nullptr ||
+        has_word(egl.QueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+    candidates.push_back(
+        {fmt::format("EGL device {}", i),
+         [egl, device] { return open_surface(egl, EGL_PLATFORM_DEVICE_EXT, device); }, !software});
   }
   return candidates;
 }

@@ -22,6 +22,7 @@ class Surface {
 struct Candidate {
   std::string what;  // as in Attempt
   std::function<Result<std::unique_ptr<Surface>>()> open;
+  bool hardware = false;  // the driver says, before it is opened, that it is a graphics card
 };
 
 /// Names for dlopen; tests give others to see what happens where there is no GL.

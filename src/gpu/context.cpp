@@ -216,15 +216,25 @@ Result<void*> open_library(const std::string& name) {
 
 Result<std::shared_ptr<Context>> create_context(Backend backend, const Libraries& libraries) {
   std::vector<Attempt> attempts;
+  std::shared_ptr<ThreadedContext> taken;
+  size_t taken_at = 0;
   for (const Candidate& candidate : candidates_for(backend, libraries)) {
+    // A context in software is kept while a graphics card may still follow.
+    if (taken && !candidate.hardware) continue;
     auto context = std::make_shared<ThreadedContext>();
     const Status opened = context->open(candidate);
     attempts.push_back({candidate.what, opened ? "" : opened.error().message});
-    if (!opened) continue;
-    context->set_attempts(attempts);
-    return std::shared_ptr<Context>(std::move(context));
+    if (opened && taken && context->info().software) attempts.back().reason = "in software too";
+    if (!opened || (taken && context->info().software)) continue;
+    if (taken) attempts[taken_at].reason = "in software, and a graphics card was found";
+    taken = std::move(context);
+    taken_at = attempts.size() - 1;
+    if (!taken->info().software) break;
   }
-  return nothing_works(backend, attempts);
+  if (!taken) return nothing_works(backend, attempts);
+  std::rotate(attempts.begin() + taken_at, attempts.begin() + taken_at + 1, attempts.end());
+  taken->set_attempts(attempts);
+  return std::shared_ptr<Context>(std::move(taken));
 }
 
 Result<std::shared_ptr<Context>> Context::create(Backend backend) {

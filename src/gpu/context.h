@@ -33,7 +33,8 @@ struct Functions;  // gpu/functions.h: the GL entry points of one context
 class Context : public std::enable_shared_from_this<Context> {
  public:
   /// Error missing_backend with the package to install when nothing works; `automatic` tries EGL
-  /// surfaceless, each EGL device, then OSMesa. Never the default display.
+  /// surfaceless, each EGL device, then OSMesa. Never the default display. A graphics card among
+  /// the EGL devices wins over a surfaceless context in software.
   static Result<std::shared_ptr<Context>> create(Backend backend);
   virtual ~Context() = default;
 
