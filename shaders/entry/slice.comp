@@ -14,12 +14,12 @@ struct SliceRow {
   int first_piece;   // row of the profile texture
   int unused;
 };
-// A place where light is scattered into the row's rays.
-struct SliceSample {
-  ListSample place;
+// A place where sunlight is scattered into the row's rays.
+struct SunSample {
+  float sun_scale, nu_scale;  // as in ListSample
+  float height;
   float view_rayleigh, view_aerosol, view_ozone;  // columns from the camera [km]
   float rayleigh, aerosol;                        // density * length [km]
-  float unused_0, unused_1, unused_2;
 };
 struct SliceBlock {
   float mu_s;  // at the camera
@@ -30,8 +30,10 @@ struct SliceBlock {
 layout(std140, binding = 3) uniform SliceUniforms { SliceBlock slice; };
 layout(std140, binding = 4) uniform WeightBlock { vec4 xyz_weight[4 * GROUPS]; };  // per band
 layout(std430, binding = 1) readonly buffer RowBlock { SliceRow rows[]; };
-layout(std430, binding = 2) readonly buffer SampleBlock { SliceSample samples[]; };
-// [group][sample]: transmittance * scattering * length
+layout(std430, binding = 2) readonly buffer SampleBlock { SunSample samples[]; };
+// The same samples, where multiple scattering is looked up.
+layout(std430, binding = 6) readonly buffer PlaceBlock { ListSample places[]; };
+// [group][place]: transmittance * scattering * length
 layout(std430, binding = 3) readonly buffer ScatteringBlock { vec4 scattering_weight[]; };
 layout(std430, binding = 4) buffer SmoothBlock { vec4 smooth_xyz[]; };  // [row][azimuth]
 layout(std430, binding = 5) buffer AerosolBlock { vec4 aerosol_xyz[]; };
@@ -56,20 +58,24 @@ Sums add_sunlight(Sums sums, float h, float mu_s, vec3 view, float rayleigh, flo
   return sums;
 }
 
-// The ray by its list; with `sunlit` false multiple scattering alone.
-Sums listed_scattering(SliceRow row, SunOfRay sun, bool sunlit, Sums sums) {
+// Sunlight along the ray by its list.
+Sums listed_sunlight(SliceRow row, SunOfRay sun, Sums sums) {
   for (int i = row.first; i < row.first + row.count; ++i) {
-    SliceSample here = samples[i];
-    float mu_s = sun_cosine(here.place, sun.mu_s, sun.nu);
-    if (sunlit)
-      sums = add_sunlight(sums, here.place.height, mu_s,
-                          vec3(here.view_rayleigh, here.view_aerosol, here.view_ozone),
-                          here.rayleigh, here.aerosol);
-    if (slice.multiple_scattering == 1) {
-      SourceTexel texel = source_texel_of(here.place, mu_s, sun.nu);
-      for (int g = 0; g < GROUPS; ++g)
-        sums.multiple[g] += source_at(g, texel) * scattering_weight[g * samples.length() + i];
-    }
+    SunSample here = samples[i];
+    float mu_s = clamp(here.sun_scale * sun.mu_s + here.nu_scale * sun.nu, -1.0, 1.0);
+    sums = add_sunlight(sums, here.height, mu_s,
+                        vec3(here.view_rayleigh, here.view_aerosol, here.view_ozone), here.rayleigh,
+                        here.aerosol);
+  }
+  return sums;
+}
+
+Sums multiple_scattering(SliceRow row, SunOfRay sun, Sums sums) {
+  for (int i = row.first; i < row.first + row.count; ++i) {
+    ListSample here = places[i];
+    SourceTexel texel = source_texel_of(here, sun_cosine(here, sun.mu_s, sun.nu), sun.nu);
+    for (int g = 0; g < GROUPS; ++g)
+      sums.multiple[g] += source_at(g, texel) * scattering_weight[g * places.length() + i];
   }
   return sums;
 }
@@ -129,8 +135,8 @@ void main() {
   for (int g = 0; g < GROUPS; ++g) sums.rayleigh[g] = sums.aerosol[g] = sums.multiple[g] = vec4(0.0);
   vec2 shadow = shadow_cuts(ray.height, ray.mu, sun.mu_s, nu);
   bool shadowed = (shadow.x > 0.0 && shadow.x < ray.length) || (shadow.y > 0.0 && shadow.y < ray.length);
-  if (shadowed) sums = shadowed_scattering(row, sun, shadow, sums);
-  sums = listed_scattering(row, sun, !shadowed, sums);
+  sums = shadowed ? shadowed_scattering(row, sun, shadow, sums) : listed_sunlight(row, sun, sums);
+  if (slice.multiple_scattering == 1) sums = multiple_scattering(row, sun, sums);
 
   int item = row_index * slice.azimuths + azimuth;
   vec4 smooth_sum = smooth_xyz[item];

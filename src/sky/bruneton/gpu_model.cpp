@@ -115,7 +115,7 @@ QueryRays query_rays(const Columns& columns, const Query& query) {
 
 /// The rows of a slice on the context, kept from frame to frame.
 struct SliceBuffers {
-  gpu::Buffer rows, samples;
+  gpu::Buffer rows, samples, places;
   std::vector<gpu::Buffer> weights;  // per range of groups
   gpu::Texture profiles;
 };
@@ -147,11 +147,12 @@ Result<const SliceBuffers*> GpuModel::State::slice_buffers(const gpu::Functions&
   SliceBuffers buffers;
   buffers.rows = gpu::Buffer::of(gl, lists.rows);
   buffers.samples = gpu::Buffer::of(gl, lists.samples);
-  const size_t groups = data.groups.size(), samples = lists.samples.size();
+  buffers.places = gpu::Buffer::of(gl, lists.places);
+  const size_t groups = data.groups.size(), places = lists.places.size();
   for (const Range& range : ranges) {
     std::vector<glm::vec4> weights;
     for (int g = range.groups.first; g < range.groups.first + range.groups.count; ++g)
-      for (size_t i = 0; i < samples; ++i) weights.emplace_back(lists.weights[i * groups + g]);
+      for (size_t i = 0; i < places; ++i) weights.emplace_back(lists.weights[i * groups + g]);
     buffers.weights.push_back(gpu::Buffer::of(gl, weights));
   }
   const int nodes = SliceLists::kProfileNodes, pieces = int(lists.profiles.size()) / nodes;
@@ -207,6 +208,7 @@ Result<SkySlice> GpuModel::slice(Length camera_height, Angle sun_zenith, const S
       range.xyz_weight.bind_uniform(gl, 4);
       (*lists)->rows.bind_storage(gl, 1);
       (*lists)->samples.bind_storage(gl, 2);
+      (*lists)->places.bind_storage(gl, 6);
       (*lists)->weights[i].bind_storage(gl, 3);
       (*lists)->profiles.bind(gl, unsigned(range.groups.count) + 1);
       smooth.bind_storage(gl, 4);

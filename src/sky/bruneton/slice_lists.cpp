@@ -9,13 +9,14 @@ namespace skylapse::sky::bruneton {
 namespace {
 
 static_assert(sizeof(text::Ray) == 16 * sizeof(double));
-static_assert(sizeof(SliceRowBlock) == 96 && sizeof(SliceSample) == 64 && sizeof(ListSample) == 32,
+static_assert(sizeof(SliceRowBlock) == 96 && sizeof(SunSample) == 32 && sizeof(ListSample) == 32,
               "the layout of std430");
 
 /// The lists of one row; joined afterwards.
 struct RowLists {
   SliceRowBlock block{};
-  std::vector<SliceSample> samples;
+  std::vector<SunSample> samples;
+  std::vector<ListSample> places;
   std::vector<glm::dvec4> weights;
   std::vector<glm::vec4> profiles;
 };
@@ -77,12 +78,14 @@ class RowBuilder {
     const double start = text_.radius_of(ray_.height), r = text_.radius_of(h);
     const double mu = std::clamp((start * ray_.mu + t) / r, -1.0, 1.0);
     const glm::dvec3 amount = text_.densities(h) * dt;
-    lists_.samples.push_back({list_sample(start / r, t / r, mu, h, text_.height_coordinate(h),
-                                          text_.zenith_coordinate(mu), settings_),
+    lists_.samples.push_back({float(start / r),
+                              float(t / r),
+                              float(h),
                               {float(view.x), float(view.y), float(view.z)},
                               float(amount.x),
-                              float(amount.y),
-                              {}});
+                              float(amount.y)});
+    lists_.places.push_back(list_sample(start / r, t / r, mu, h, text_.height_coordinate(h),
+                                        text_.zenith_coordinate(mu), settings_));
     for (const text::BandGroup& band : data_.groups)
       lists_.weights.push_back(
           glm::exp(-text_.optical_depth(band, view)) *
@@ -148,6 +151,7 @@ SliceLists slice_lists(const Columns& columns, const PhysicsData& data, const Se
     SliceRowBlock block = part.block;
     block.count = int(part.samples.size());
     block.first = append(lists.samples, part.samples);
+    append(lists.places, part.places);
     append(lists.weights, part.weights);
     block.first_piece = append(lists.profiles, part.profiles) / SliceLists::kProfileNodes;
     lists.rows.push_back(block);

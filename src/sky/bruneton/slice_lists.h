@@ -19,14 +19,16 @@ struct SliceRowBlock {
   float mu, whole[3];
   int first, count, first_piece, unused;
 };
-struct SliceSample {
-  ListSample place;
-  float view[3], rayleigh, aerosol, unused[3];
+struct SunSample {
+  float sun_scale, nu_scale, height, view[3], rayleigh, aerosol;
 };
 
 struct SliceLists {
   std::vector<SliceRowBlock> rows;
-  std::vector<SliceSample> samples;
+  /// Gauss nodes of the march: what sunlight needs there, and what multiple scattering does. Apart,
+  /// for a ray that is cut at the planet's shadow uses the second list alone.
+  std::vector<SunSample> samples;
+  std::vector<ListSample> places;
   /// [sample][group]: transmittance * scattering * length.
   std::vector<glm::dvec4> weights;
   /// Columns from the camera along each piece, kProfileNodes a piece: evenly in s, distance from
