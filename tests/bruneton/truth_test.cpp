@@ -48,6 +48,27 @@ TEST(SingleScattering, IsWithinHalfAPercentOfQuadratureInEveryGroup) {
   }
 }
 
+/// A veil far up that is thin beside the length of a low ray: the march must not step over it. The
+/// truth is the same march with eight times the nodes, which sees the veil wherever it is cut.
+TEST(SingleScattering, SeesAVeilInTheStratosphereFromEverywhere) {
+  atmosphere::Medium medium = green_medium();
+  const atmosphere::DensityProfile veil = atmosphere::tent_profile(16 * km, 21 * km, 26 * km);
+  for (atmosphere::DensityTerm term : veil.terms) {
+    term.slope_per_km *= 5, term.constant *= 5;
+    medium.aerosol.terms.push_back(term);
+  }
+  const Twin twin = single_scattering_twin(medium);
+  for (const double height_m : {0.0, 11000.0, 19000.0, 40000.0, 400000.0})
+    for (const double sun : {30.0, 86.2, 93.0})
+      for (double below = -12; below <= 30; below += 0.5) {  // the zenith angle less that of level
+        const Query query{height_m * metre, sun * deg, (90 + below) * deg, 25 * deg};
+        const double truth = twin.answer(query, {.samples = 128}).radiance[0];
+        // 1 %: the greatest error of single scattering that is allowed anywhere.
+        EXPECT_NEAR(twin.answer(query).radiance[0], truth, 0.01 * truth + 1e-9)
+            << "height " << height_m << " sun " << sun << " view " << 90 + below;
+      }
+}
+
 TEST(Transmittance, AgreesWithQuadrature) {
   const Twin twin = single_scattering_twin(atmosphere::reference_medium());
   for (TruthRow row : read_truth("view_transmittance.tsv")) {
