@@ -1,4 +1,4 @@
-// The bilinear lookup of a slice against direct marching.
+// A frame's slice, refined as frames have it, against direct marching.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <random>
 
 #include "sky/bruneton/physics.h"
+#include "sky/bruneton/slice_refine.h"
 #include "studies.h"
 
 namespace skylapse::sky::bruneton {
@@ -20,7 +21,7 @@ Quantiles slice_error(const Twin& twin, Length height, Angle sun, int azimuths, 
   march.ground = true;
   const SliceGrid grid = azimuths > 0 ? slice_grid(twin.medium(), height, azimuths, zeniths)
                                       : slice_grid(twin.medium(), height);
-  const SkySlice slice = twin.slice(height, sun, grid, march);
+  const SkySlice slice = refined(twin.slice(height, sun, grid, march));
   std::mt19937 random(3);
   std::uniform_real_distribution<double> share(0, 1);
   std::vector<std::pair<double, double>> values;

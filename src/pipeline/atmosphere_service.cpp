@@ -10,6 +10,7 @@
 #include "plan/atmosphere_of_frame.h"
 #include "sky/bruneton/gpu_model.h"
 #include "sky/bruneton/slice_irradiance.h"
+#include "sky/bruneton/slice_refine.h"
 #include "sky/bruneton/table_cache.h"
 #include "sky/bruneton/twin.h"
 
@@ -222,7 +223,7 @@ Result<FrameAtmosphere> AtmosphereService::of_frame(const plan::Frame& frame) {
   auto slice = model->gpu->slice(frame.camera_height, 90 * deg - elevation(frame.sun.direction),
                                  grid, {.multiple_scattering = multiple, .ground = true});
   if (!slice) return slice.error();
-  FrameAtmosphere air{*std::move(slice), {}, disc_of(*model->twin, frame)};
+  FrameAtmosphere air{sky::bruneton::refined(*slice), {}, disc_of(*model->twin, frame)};
   air.sky_irradiance_xyz = horizontal_irradiance_xyz(air.slice);
   return air;
 }

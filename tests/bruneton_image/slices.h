@@ -24,7 +24,11 @@ inline glm::dvec3 looked_up(const SkySlice& slice, double over, double azimuth) 
   const int half = grid.zeniths / 2;
   if (over > grid.sky_span_rad * (1 + 1e-12)) return glm::dvec3(0);
   const double span = over < 0 ? grid.ground_span_rad : grid.sky_span_rad;
-  const double t = std::min(1.0, std::sqrt(std::abs(over) / span)) * (half - 1);
+  const double b = over < 0 ? grid.ground_bend : grid.sky_bend;
+  const double q = std::min(1.0, std::abs(over) / span);
+  // b s^2 + (1 - b) s^4 = q
+  const double s2 = b < 1 ? (std::sqrt(b * b + 4 * (1 - b) * q) - b) / (2 * (1 - b)) : q;
+  const double t = std::sqrt(std::min(1.0, s2)) * (half - 1);
   const double u = std::pow(std::min(1.0, azimuth / kPi), 2.0 / 3) * (grid.azimuths - 1);
   const int row = std::min(int(t), half - 2), column = std::min(int(u), grid.azimuths - 2);
   const auto read = [&](const std::vector<glm::vec4>& nodes) {
@@ -48,7 +52,8 @@ inline SliceGrid grid_at(double height_km, int azimuths, int zeniths) {
   constexpr double kRadius = 6371, kTop = 100;
   const double r = kRadius + height_km;
   const double dip = std::atan2(std::sqrt(height_km * (2 * kRadius + height_km)), kRadius);
-  SliceGrid grid{azimuths, zeniths, kPi / 2 + dip, kPi / 2 + dip, kPi / 2 - dip};
+  const double bend = std::clamp(2 * dip, 0.01, 1.0);
+  SliceGrid grid{azimuths, zeniths, kPi / 2 + dip, kPi / 2 + dip, kPi / 2 - dip, 0.6, bend};
   if (height_km > kTop)
     grid.sky_span_rad = std::asin((kRadius + kTop) / r) - std::asin(kRadius / r);
   return grid;

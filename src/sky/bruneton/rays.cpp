@@ -46,8 +46,8 @@ text::Ray make_ray(const Columns& columns, double height_km, double mu, RaySide 
 double slice_zenith(const SliceGrid& grid, int row) {
   const int half = grid.zeniths / 2;
   const double s = double(row < half ? row : row - half) / (half - 1);
-  return row < half ? grid.horizon_zenith_rad - grid.sky_span_rad * s * s
-                    : grid.horizon_zenith_rad + grid.ground_span_rad * s * s;
+  return row < half ? grid.horizon_zenith_rad - grid.elevation(s, true)
+                    : grid.horizon_zenith_rad + grid.elevation(s, false);
 }
 
 std::vector<SliceRow> slice_rows(const Columns& columns, double height_km, const SliceGrid& grid) {

@@ -14,6 +14,18 @@ constexpr double kHalfTurn = std::numbers::pi;
 
 }  // namespace
 
+double SliceGrid::share(double over) const {
+  const double span = over < 0 ? ground_span_rad : sky_span_rad;
+  const double b = over < 0 ? ground_bend : sky_bend;
+  const double q = span > 0 ? std::min(std::abs(over) / span, 1.0) : 0;
+  return std::min(1.0, std::sqrt(2 * q / (b + std::sqrt(b * b + 4 * (1 - b) * q))));
+}
+
+double SliceGrid::elevation(double share, bool sky) const {
+  const double b = sky ? sky_bend : ground_bend, q = share * share;
+  return (sky ? sky_span_rad : ground_span_rad) * q * (b + (1 - b) * q);
+}
+
 SliceGrid slice_grid(const atmosphere::Medium& medium, Length height, int azimuths, int zeniths) {
   const double h = height.in(km), R = medium.bottom_radius_km, H = medium.top_height_km;
   assert(std::isfinite(h) && h >= 0 && azimuths >= 2 && zeniths >= 4 && zeniths % 2 == 0);
@@ -26,6 +38,9 @@ SliceGrid slice_grid(const atmosphere::Medium& medium, Length height, int azimut
   // From outside, the air ends at the tangent to its top.
   const double top_dip = h > H ? std::atan2(std::sqrt((h - H) * (2 * R + h + H)), R + H) : 0;
   grid.sky_span_rad = h > H ? dip - top_dip : grid.horizon_zenith_rad;
+  // Within about a dip below the horizon the ground comes near at once, which a camera close to the
+  // ground sees as a thin band: the rows turn from s^2 to s^4 there.
+  grid.ground_bend = std::clamp(0.7 * std::sqrt(dip / grid.ground_span_rad), 0.002, 1.0);
   return grid;
 }
 
@@ -44,9 +59,7 @@ glm::dvec3 SkySlice::radiance_xyz(Angle zenith, Angle azimuth_from_sun) const {
   const double above = grid.horizon_zenith_rad - zenith.in(rad);
   if (above > grid.sky_span_rad) return glm::dvec3(0);
   const int half = grid.zeniths / 2;
-  const double span = above >= 0 ? grid.sky_span_rad : grid.ground_span_rad;
-  const double s = span > 0 ? std::sqrt(std::min(std::abs(above) / span, 1.0)) : 0;
-  const text::Between y = text::between(s * (half - 1), half - 1);
+  const text::Between y = text::between(grid.share(above) * (half - 1), half - 1);
   const double share = std::pow(std::min(phi / kHalfTurn, 1.0), 2.0 / 3.0);
   const text::Between x = text::between(share * (grid.azimuths - 1), grid.azimuths - 1);
   const size_t corner = size_t(y.node + (above >= 0 ? 0 : half)) * grid.azimuths + x.node;

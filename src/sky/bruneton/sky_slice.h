@@ -11,15 +11,23 @@ namespace skylapse::sky::bruneton {
 
 /// Azimuth: node i of `azimuths` at phi = pi * (i / (azimuths - 1))^1.5 from the sun's azimuth, the
 /// sky being symmetric. Zenith angle: `zeniths` (even) rows in two halves that never mix. Row
-/// j < zeniths / 2 of the sky half has s = j / (zeniths / 2 - 1) and looks e = sky_span * s^2 above
-/// the geometric horizon; the rows of the ground half follow, at e = -ground_span * s^2.
-/// Nodes lie on the ends of both axes.
+/// j < zeniths / 2 of the sky half has s = j / (zeniths / 2 - 1) and looks
+/// e = sky_span * (b s^2 + (1 - b) s^4) above the geometric horizon, b = sky_bend; the rows of the
+/// ground half follow, as far below it in their own span and bend. Nodes lie on the ends of both
+/// axes.
 struct SliceGrid {
   int azimuths = 64;
   int zeniths = 128;
   double horizon_zenith_rad = 0;  // zenith angle of the geometric horizon, pi/2 plus its dip
   double sky_span_rad = 0;        // to the zenith, or to the top of the atmosphere from outside it
   double ground_span_rad = 0;     // to the nadir: pi - horizon_zenith
+  double sky_bend = 1;            // in (0, 1]; the less, the more rows lie close to the horizon
+  double ground_bend = 1;
+
+  /// Place s in [0, 1] of an elevation [rad] over (>= 0: in the sky half) or below the horizon.
+  [[nodiscard]] double share(double over) const;
+  /// The elevation's size [rad] at a place of the sky half or the ground half.
+  [[nodiscard]] double elevation(double share, bool sky) const;
 
   friend bool operator==(const SliceGrid&, const SliceGrid&) = default;
 };

@@ -23,15 +23,23 @@ struct BlockCoordinates {
   alignas(64) std::int32_t table_offset[kBlock];  // in floats
 };
 
+/// Row at the elevation e [rad] over or below the horizon:
+/// sqrt(factor e / (bend + sqrt(bend^2 + slope e))). See SliceGrid::share.
+struct RowPlaces {
+  float factor;  // 2 (rows of the half - 1)^2 / span
+  float bend;
+  float slope;  // 4 (1 - bend) / span
+};
+
 /// The slice's axes and its sun.
 struct Shape {
   double horizon_sine, horizon_cosine;  // of the zenith angle of the geometric horizon
   double sun_sine, sun_cosine;          // of the sun's zenith angle
   double phase_a, phase_b;              // 1 + g^2 and 2 g
-  float sky_rows, ground_rows;          // (rows of the half - 1) / sqrt(span)
-  float top;                            // rad over the horizon: black above (a camera in space)
-  float columns;                        // azimuths - 1
-  int half;                             // rows of a half
+  RowPlaces sky, ground;
+  float top;      // rad over the horizon: black above (a camera in space)
+  float columns;  // azimuths - 1
+  int half;       // rows of a half
   int azimuths;
   int black_row;  // this row of the table and the next are 0
 };

@@ -14,6 +14,12 @@ constexpr double kPi = std::numbers::pi;
 /// Of the Cornette-Shanks phase function (Bruneton and Neyret 2008, Eq. 4) what depends on g alone.
 double phase_constant(double g) { return 3 / (8 * kPi) * (1 - g * g) / (2 + g * g); }
 
+kernel::RowPlaces row_places(int half, double span, double bend) {
+  return {.factor = float(2 * (half - 1.0) * (half - 1.0) / span),
+          .bend = float(bend),
+          .slope = float(4 * (1 - bend) / span)};
+}
+
 }  // namespace
 
 SliceTable::SliceTable(const SliceImageInputs& inputs) : grid_(inputs.slice->grid) {
@@ -31,8 +37,8 @@ SliceTable::SliceTable(const SliceImageInputs& inputs) : grid_(inputs.slice->gri
             .sun_cosine = std::cos(slice.sun_zenith_rad),
             .phase_a = 1 + g * g,
             .phase_b = 2 * g,
-            .sky_rows = float((half - 1) / std::sqrt(grid_.sky_span_rad)),
-            .ground_rows = float((half - 1) / std::sqrt(grid_.ground_span_rad)),
+            .sky = row_places(half, grid_.sky_span_rad, grid_.sky_bend),
+            .ground = row_places(half, grid_.ground_span_rad, grid_.ground_bend),
             .top = open_ ? float(grid_.sky_span_rad) : std::numeric_limits<float>::infinity(),
             .columns = float(grid_.azimuths - 1),
             .half = half,
@@ -53,8 +59,7 @@ SliceTable::SliceTable(const SliceImageInputs& inputs) : grid_(inputs.slice->gri
 RowWeights SliceTable::rows_at(double over) const {
   const int half = shape_.half;
   if (open_ && over > grid_.sky_span_rad) return {};
-  const double span = over < 0 ? grid_.ground_span_rad : grid_.sky_span_rad;
-  const double t = std::min(1.0, std::sqrt(std::abs(over) / span)) * (half - 1);
+  const double t = grid_.share(over) * (half - 1);
   const int row = std::min(int(t), half - 2);
   return {row + (over < 0 ? half : 0), {1 - (t - row), t - row}};
 }
@@ -64,25 +69,28 @@ RowWeights SliceTable::mean_rows(double low, double high) const {
   const bool ground = low < 0;
   const double near = ground ? -high : low, far = ground ? -low : high;
   const double span = ground ? grid_.ground_span_rad : grid_.sky_span_rad;
+  const double bend = ground ? grid_.ground_bend : grid_.sky_bend;
   const int half = shape_.half;
   const double rows = half - 1;
-  const double t_near = std::min(1.0, std::sqrt(near / span)) * rows;
-  const double t_far = std::min(1.0, std::sqrt(far / span)) * rows;
-  // The mean over e = span (t / rows)^2 is one over 2 t dt; it is quadratic in t between two rows,
-  // so that two Gauss nodes each are exact. `whole` counts what lies beyond the last row too, where
-  // that is space; beyond the zenith and the nadir there is nothing to count.
-  const double end = !ground && open_ ? std::sqrt(far / span) * rows : t_far;
-  const double whole = (end - t_near) * (end + t_near);
-  if (!(whole > 1e-12)) return rows_at(ground ? -near : near);
-  constexpr double kNode = 0.5773502691896258;  // 1 / sqrt(3)
+  const double t_near = grid_.share(ground ? -near : near) * rows;
+  const double t_far = grid_.share(ground ? -far : far) * rows;
+  // What lies beyond the last row counts too where that is space; beyond the zenith and the nadir
+  // there is nothing to count.
+  const double end = !ground && open_ ? far : std::min(far, span);
+  const double whole = (end - near) / span;
+  if (!(whole > 1e-15)) return rows_at(ground ? -near : near);
+  // The mean over e = span (b s^2 + (1 - b) s^4), s = t / rows, is one over de/dt dt; linear
+  // between two rows, it is a quartic in t there, so that three Gauss nodes each are exact.
+  constexpr double kNode = 0.7745966692414834;  // sqrt(3 / 5)
   const int first = std::min(int(t_near), half - 2), last = std::min(int(t_far), half - 2);
   RowWeights mean{first + (ground ? half : 0), std::vector<double>(last - first + 2)};
   for (int row = first; row <= last; ++row) {
     const double a = std::max(t_near, double(row)), b = std::min(t_far, double(row + 1));
     if (b <= a) continue;
-    for (const double side : {-kNode, kNode}) {
-      const double t = 0.5 * (a + b) + 0.5 * side * (b - a);
-      const double w = 0.5 * (b - a) * 2 * t / whole;
+    for (const double side : {-1.0, 0.0, 1.0}) {
+      const double t = 0.5 * (a + b) + 0.5 * side * kNode * (b - a);
+      const double s = t / rows, slope = s * (2 * bend + 4 * (1 - bend) * s * s) / rows;
+      const double w = 0.5 * (b - a) * (side == 0 ? 8.0 / 9 : 5.0 / 9) * slope / whole;
       mean.weight[row - first] += w * (1 - (t - row));
       mean.weight[row - first + 1] += w * (t - row);
     }
