@@ -90,35 +90,35 @@ Tables empty_tables(const atmosphere::Medium& medium, const Settings& settings, 
   return tables;
 }
 
-/// The rows at the sun nodes alone, in tables of as many rows.
-Tables nodes_of(const Tables& tables) {
-  const Settings& settings = tables.settings;
+/// How one group's numbers lie in memory: `slabs` tables of sun rows, `width` numbers a row.
+struct Slabs {
+  size_t count = 1, width = 4;
+};
+Slabs source_slabs(const Settings& settings) {
+  return {size_of(settings.heights) * size_of(settings.table_zeniths),
+          4 * size_of(settings.table_azimuths)};
+}
+
+/// The rows at the sun nodes alone.
+std::vector<float> node_rows(const std::vector<float>& from, Slabs slabs,
+                             const Settings& settings) {
   const size_t suns = size_of(settings.suns), rows = size_of(settings.sun_rows());
-  Tables nodes = empty_tables(tables.medium, settings, suns);
-  nodes.orders = tables.orders;
-  nodes.last_addition = tables.last_addition;
-  nodes.tail_ratio = tables.tail_ratio;
-  const auto pick = [&](const std::vector<float>& from, std::vector<float>& to) {
-    const size_t slabs = rows > 0 ? size_of(settings.heights) * size_of(settings.table_zeniths) : 0;
-    const size_t count = from.size() == 4 * rows ? 1 : slabs;
-    const size_t width = from.size() / (rows * count);
-    for (size_t slab = 0; slab < count; ++slab)
-      for (size_t sun = 0; sun < suns; ++sun)
-        std::copy_n(&from[(slab * rows + sun * size_t(settings.sun_rows_per_interval)) * width],
-                    width, &to[(slab * suns + sun) * width]);
-  };
-  for (size_t g = 0; g < tables.source.size(); ++g) {
-    pick(tables.source[g], nodes.source[g]);
-    pick(tables.ground_irradiance[g], nodes.ground_irradiance[g]);
-  }
+  std::vector<float> nodes(slabs.count * suns * slabs.width);
+  for (size_t slab = 0; slab < slabs.count; ++slab)
+    for (size_t sun = 0; sun < suns; ++sun)
+      std::copy_n(&from[(slab * rows + sun * size_t(settings.sun_rows_per_interval)) * slabs.width],
+                  slabs.width, &nodes[(slab * suns + sun) * slabs.width]);
   return nodes;
 }
 
-/// All rows of `slabs` tables of sun rows, `width` numbers a row, from those at the nodes.
-void rows_of(const std::vector<float>& nodes, std::vector<float>& rows, size_t slabs, size_t width,
-             const Settings& settings, bool dark_end) {
+/// All rows from those at the nodes.
+std::vector<float> all_rows(const std::vector<float>& nodes, Slabs slabs, const Tables& tables) {
+  const Settings& settings = tables.settings;
+  const bool dark_end = sun_warp(tables.medium).dark_end;
   const size_t suns = size_of(settings.suns), count = size_of(settings.sun_rows());
-  parallel_for_ranges(slabs, 8, [&](size_t begin, size_t end) {
+  const size_t width = slabs.width;
+  std::vector<float> rows(slabs.count * count * width);
+  parallel_for_ranges(slabs.count, 8, [&](size_t begin, size_t end) {
     std::vector<double> in(suns * width), out(count * width);
     for (size_t slab = begin; slab < end; ++slab) {
       std::copy_n(&nodes[slab * suns * width], suns * width, in.begin());
@@ -126,37 +126,42 @@ void rows_of(const std::vector<float>& nodes, std::vector<float>& rows, size_t s
       for (size_t i = 0; i < out.size(); ++i) rows[slab * count * width + i] = float(out[i]);
     }
   });
+  return rows;
 }
 
-/// Tables with all rows from those at the nodes.
-Tables expanded(Tables&& nodes) {
-  const Settings& settings = nodes.settings;
-  const bool dark_end = sun_warp(nodes.medium).dark_end;
-  const size_t slabs = size_of(settings.heights) * size_of(settings.table_zeniths);
-  Tables tables = empty_tables(nodes.medium, settings, size_of(settings.sun_rows()));
-  tables.orders = nodes.orders;
-  tables.last_addition = nodes.last_addition;
-  tables.tail_ratio = nodes.tail_ratio;
-  for (size_t g = 0; g < nodes.source.size(); ++g) {
-    rows_of(nodes.source[g], tables.source[g], slabs, 4 * size_of(settings.table_azimuths),
-            settings, dark_end);
-    rows_of(nodes.ground_irradiance[g], tables.ground_irradiance[g], 1, 4, settings, dark_end);
-  }
-  return tables;
+/// The same tables with each group's numbers changed; one group at a time, for memory.
+template <class Change>
+void change_groups(Tables& tables, const Change& change) {
+  for (auto& group : tables.source) group = change(group, source_slabs(tables.settings));
+  for (auto& group : tables.ground_irradiance) group = change(group, Slabs{});
+}
+
+/// Whether the rows between the sun nodes are those that refill_sun_rows() makes, to the bit.
+bool nodes_suffice(const Tables& tables) {
+  const auto suffice = [&](const std::vector<float>& group, Slabs slabs) {
+    return all_rows(node_rows(group, slabs, tables.settings), slabs, tables) == group;
+  };
+  for (const auto& group : tables.source)
+    if (!suffice(group, source_slabs(tables.settings))) return false;
+  for (const auto& group : tables.ground_irradiance)
+    if (!suffice(group, Slabs{})) return false;
+  return true;
 }
 
 bool right_sizes(const Tables& tables) {
-  const Tables right =
-      empty_tables(tables.medium, tables.settings, size_of(tables.settings.sun_rows()));
-  const auto same = [](const auto& a, const auto& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const auto& x, const auto& y) { return x.size() == y.size(); });
+  const Settings& settings = tables.settings;
+  const size_t rows = size_of(settings.sun_rows()), groups = size_t(tables.groups());
+  const auto all_of_size = [&](const std::vector<std::vector<float>>& all, size_t size) {
+    return all.size() == groups && std::all_of(all.begin(), all.end(), [&](const auto& group) {
+             return group.size() == size;
+           });
   };
-  return same(tables.source, right.source) &&
-         same(tables.ground_irradiance, right.ground_irradiance) &&
-         tables.last_addition.size() == right.last_addition.size() &&
-         tables.tail_ratio.size() == right.tail_ratio.size() && tables.settings.suns >= 2 &&
-         tables.settings.sun_rows_per_interval >= 1;
+  const Slabs slabs = source_slabs(settings);
+  return settings.suns >= 2 && settings.sun_rows_per_interval >= 1 &&
+         all_of_size(tables.source, slabs.count * slabs.width * rows) &&
+         all_of_size(tables.ground_irradiance, 4 * rows) &&
+         tables.last_addition.size() == tables.medium.bands.size() &&
+         tables.tail_ratio.size() == tables.medium.bands.size();
 }
 
 bool all_finite(const Tables& tables) {
@@ -200,24 +205,34 @@ fs::path temporary_of(const fs::path& path) {
 
 }  // namespace
 
-void refill_sun_rows(Tables& tables) { tables = expanded(nodes_of(tables)); }
+void refill_sun_rows(Tables& tables) {
+  change_groups(tables, [&](const std::vector<float>& group, Slabs slabs) {
+    return all_rows(node_rows(group, slabs, tables.settings), slabs, tables);
+  });
+}
 
 Status write_tables(const fs::path& path, const std::string& key, const Tables& tables) {
   if (!right_sizes(tables) || !all_finite(tables))
     return Error{ErrorCode::internal, "tables of wrong size, or not of finite numbers", {}, {}};
-  Tables nodes = nodes_of(tables);
-  const Tables again = expanded(Tables(nodes));
-  const bool nodes_suffice =
-      again.source == tables.source && again.ground_irradiance == tables.ground_irradiance;
+  const bool short_form = nodes_suffice(tables);
+  Tables nodes;
+  if (short_form) {
+    nodes.last_addition = tables.last_addition;
+    nodes.tail_ratio = tables.tail_ratio;
+    for (const auto& group : tables.source)
+      nodes.source.push_back(node_rows(group, source_slabs(tables.settings), tables.settings));
+    for (const auto& group : tables.ground_irradiance)
+      nodes.ground_irradiance.push_back(node_rows(group, Slabs{}, tables.settings));
+  }
   // The sections are only read here.
-  const std::vector<Bytes> parts = sections(nodes_suffice ? nodes : const_cast<Tables&>(tables));
+  const std::vector<Bytes> parts = sections(short_form ? nodes : const_cast<Tables&>(tables));
   Header header{};
   std::memcpy(header.magic, kMagic, sizeof kMagic);
   header.format = kFormat;
   header.orders = tables.orders;
   header.bands = uint32_t(tables.medium.bands.size());
   header.groups = uint32_t(tables.source.size());
-  header.rows = uint32_t(nodes_suffice ? tables.settings.suns : tables.settings.sun_rows());
+  header.rows = uint32_t(short_form ? tables.settings.suns : tables.settings.sun_rows());
   std::memcpy(header.key, key.data(), std::min(key.size(), kDigits));
   std::memcpy(header.checksum, checksum_of(parts).data(), kDigits);
   std::memcpy(header.header_checksum, checksum_of(header).data(), kDigits);
@@ -255,8 +270,11 @@ std::optional<Tables> read_tables(const fs::path& path, const std::string& key,
       return std::nullopt;
   if (file.peek() != std::ifstream::traits_type::eof()) return std::nullopt;
   if (!is(header.checksum, checksum_of(parts))) return std::nullopt;
-  return header.rows == uint32_t(settings.sun_rows()) ? std::move(tables)
-                                                      : expanded(std::move(tables));
+  if (header.rows != uint32_t(settings.sun_rows()))
+    change_groups(tables, [&](const std::vector<float>& group, Slabs slabs) {
+      return all_rows(group, slabs, tables);
+    });
+  return tables;
 }
 
 void remove_stale_table_temporaries(const fs::path& folder) {
