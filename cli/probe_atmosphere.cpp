@@ -201,7 +201,7 @@ Result<std::unique_ptr<Responder>> responder_of(const AtmosphereProbeArguments& 
   if (arguments.model == "reference") {
     sky::monte_carlo::ReferenceOptions options;
     const bool until = arguments.relative_error > 0;
-    options.samples = arguments.samples > 0 ? arguments.samples : until ? 100'000'000 : 100'000;
+    options.samples = arguments.samples.value_or(until ? 100'000'000 : 100'000);
     options.seed = arguments.seed;
     if (until) options.relative_error = arguments.relative_error;
     return std::unique_ptr<Responder>(std::make_unique<ReferenceResponder>(medium, options));
@@ -277,8 +277,8 @@ Status check_options(const AtmosphereProbeArguments& arguments) {
   if (arguments.precision != "float" && arguments.precision != "double")
     return option_error("--precision", fmt::format("'{}' is unknown", arguments.precision),
                         "allowed: float (GL), double (CPU)");
-  if (arguments.samples < 0)
-    return option_error("--samples", fmt::format("{} is out of range", arguments.samples),
+  if (arguments.samples.value_or(1) < 1)
+    return option_error("--samples", fmt::format("{} is out of range", *arguments.samples),
                         "allowed: 1 and more");
   if (!(arguments.relative_error >= 0 && arguments.relative_error < 1))
     return option_error("--relative-error",

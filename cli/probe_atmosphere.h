@@ -1,5 +1,6 @@
 #pragma once
 // probe for the models that compute an atmosphere.
+#include <optional>
 #include <string>
 
 #include "cli/console.h"
@@ -14,8 +15,8 @@ struct AtmosphereProbeArguments {
   std::string level = "standard";
   std::string precision = "float";
   std::string backend = "auto";
-  long samples = 0;  // 0: 100 000, or with a relative error at most 100 000 000
-  double relative_error = 0;  // 0: not asked for
+  std::optional<long> samples;  // none: 100 000, or with a relative error at most 100 000 000
+  double relative_error = 0;    // 0: not asked for
   unsigned long long seed = 1;
 };
 

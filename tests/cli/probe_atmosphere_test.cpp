@@ -126,7 +126,8 @@ TEST(ProbeAtmosphere, NonsenseIsRefusedAtItsCellOrOption) {
                                                   {"--model", "bruneton", "--precision", "half"},
                                                   {"--model", "bruneton", "--backend", "metal"},
                                                   {"--model", "reference", "--relative-error", "2"},
-                                                  {"--model", "reference", "--samples", "-5"}})
+                                                  {"--model", "reference", "--samples", "-5"},
+                                                  {"--model", "reference", "--samples", "0"}})
     EXPECT_EQ(probe(options, "30,0,0,0,550\n").exit_code, 3) << options.back();
   EXPECT_EQ(
       probe({"--model", "bruneton", "--atmosphere", "nowhere.yaml"}, "30,0,0,0,550\n").exit_code,
