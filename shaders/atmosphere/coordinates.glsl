@@ -11,17 +11,56 @@ vec2 columns_texel(Real h, Real mu) {
               clamp(y, Real(0.0), Real(1.0)) * air.columns_distance_last);
 }
 
+// A layer's density integrated over distances from the ray's lowest point; q = r^2 - R^2 there.
+// Heights are quadratic in the distance but for 1e-4, which two Gauss nodes integrate exactly.
+Real layer_column(LayerPiece layer, Real q, Real from, Real to) {
+  Real R = air.bottom_radius;
+  Real middle = 0.5 * (from + to);
+  Real offset = 0.2886751345948129 * (to - from);
+  Real q0 = max(q + (middle - offset) * (middle - offset), Real(0.0));
+  Real q1 = max(q + (middle + offset) * (middle + offset), Real(0.0));
+  Real heights = q0 / (R + sqrt(R * R + q0)) + q1 / (R + sqrt(R * R + q1));
+  return max((0.5 * layer.slope * heights + layer.constant) * (to - from), Real(0.0));
+}
+
+// What the table of columns leaves out, [km] from h towards mu to the top.
+vec3 layer_columns_to_top(Real h, Real mu) {
+  Real R = air.bottom_radius;
+  Real start = radius_of(h) * mu;  // distance from the lowest point
+  Real q = h * (2.0 * R + h) - start * start;
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < int(air.layer_count); ++i) {
+    LayerPiece layer = air.layers[i];
+    Real outer2 = layer.top * (2.0 * R + layer.top) - q;
+    if (outer2 <= 0.0) continue;
+    Real outer = sqrt(outer2);
+    if (outer <= start) continue;
+    Real inner = sqrt(max(layer.bottom * (2.0 * R + layer.bottom) - q, Real(0.0)));
+    Real column = layer_column(layer, q, max(inner, start), outer);
+    if (start < -inner) column += layer_column(layer, q, inner, min(-start, outer));
+    sum += vec3(layer.rayleigh, layer.aerosol, layer.ozone) * column;
+  }
+  return sum;
+}
+
 // (Rayleigh, aerosol, ozone) columns [km] from h towards mu to the top; along the horizon for
 // directions below it.
 vec3 columns_to_top(Real h, Real mu) {
-  return fetch_columns(columns_texel(h, max(mu, horizon_mu(h))));
+  Real above = max(mu, horizon_mu(h));
+  vec3 columns = fetch_columns(columns_texel(h, above));
+  if (air.layer_count > 0.5) columns += layer_columns_to_top(h, above);
+  return columns;
 }
 
 // --- Source of multiple scattering: azimuth, sun row, zenith, height. ---
 
-// Heights cluster at the ground: h = H (node / last)^(1 / height_power).
+// Heights cluster at the ground and at layers: even in (h / H)^height_power between knots.
 Real height_coordinate(Real h) {
-  return pow(clamp(h / air.top_height, Real(0.0), Real(1.0)), air.height_power) * air.height_last;
+  Real share = pow(clamp(h / air.top_height, Real(0.0), Real(1.0)), air.height_power);
+  int knot = 0;
+  for (int i = 1; i < int(air.knot_count); ++i)
+    if (share >= air.knots[i].share) knot = i;
+  return air.knots[knot].node + (share - air.knots[knot].share) * air.knots[knot].nodes_per_share;
 }
 
 // Zenith angles are uniform.

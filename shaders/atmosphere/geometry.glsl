@@ -57,3 +57,21 @@ vec2 shadow_cuts(Real h, Real mu, Real mu_s, Real nu) {
   if (!(x1 > 0.0 && x1 * sin_a < R)) t1 = -1.0;
   return vec2(min(t0, t1), max(t0, t1));
 }
+
+// Where a ray crosses the cylinder behind the planet on which the sun's rays graze the height
+// `level`, t < 0 where it does not. A layer below that height dims them within little of the ray.
+vec2 grazing_cuts(Real h, Real mu, Real mu_s, Real nu, Real level) {
+  Real R = air.bottom_radius;
+  Real along = radius_of(h) * mu_s;
+  Real a = 1.0 - nu * nu;
+  Real b = radius_of(h) * mu - along * nu;
+  Real c = h * (2.0 * R + h) - level * (2.0 * R + level) - along * along;
+  Real d = b * b - a * c;
+  if (d <= 0.0 || a < 1e-12) return vec2(-1.0, -1.0);
+  Real q = b > 0.0 ? -(b + sqrt(d)) : sqrt(d) - b;
+  Real t0 = q / a;
+  Real t1 = q != 0.0 ? c / q : Real(-1.0);
+  if (along + t0 * nu >= 0.0) t0 = -1.0;
+  if (along + t1 * nu >= 0.0) t1 = -1.0;
+  return vec2(min(t0, t1), max(t0, t1));
+}

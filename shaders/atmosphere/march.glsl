@@ -25,13 +25,18 @@ vec3 columns_between(Ray ray, Real from, Real to) {
 }
 
 // The first place after `from` where the integrand has a corner.
-Real next_cut(Ray ray, vec2 shadow, Real from) {
+Real next_cut(Ray ray, SunOfRay sun, vec2 shadow, Real from) {
   Real next = ray.length;
   Real least = from + 1e-6 * ray.length;
   for (int i = 0; i < int(ray.cut_count); ++i)
     if (ray.cuts[i] > least) next = min(next, ray.cuts[i]);
   if (shadow.x > least) next = min(next, shadow.x);
   if (shadow.y > least) next = min(next, shadow.y);
+  for (int i = 0; i < int(air.layer_count); ++i) {
+    vec2 veil = grazing_cuts(ray.height, ray.mu, sun.mu_s, sun.nu, air.layers[i].top);
+    if (veil.x > least) next = min(next, veil.x);
+    if (veil.y > least) next = min(next, veil.y);
+  }
   return next;
 }
 
@@ -80,10 +85,9 @@ RayLight march(Ray ray, SunOfRay sun, bool with_multiple) {
   vec3 view = vec3(0.0);
   Real last = 0.0;
   Real begin = 0.0;
-  // Lowest point, shadow and depth cut a ray into no more than MAX_CUTS + 3 pieces.
-  for (int piece = 0; piece < MAX_CUTS + 3; ++piece) {
+  for (int piece = 0; piece < MAX_CUTS + 3 + 2 * MAX_LAYERS; ++piece) {
     if (begin >= ray.length) break;
-    Real end = next_cut(ray, shadow, begin);
+    Real end = next_cut(ray, sun, shadow, begin);
     bool rising = begin >= ray.lowest - 1e-6 * ray.length;
     for (int i = 0; i < samples; ++i) {
       // Samples gather at the lower end, where air is dense: distance from it = length * s^2.

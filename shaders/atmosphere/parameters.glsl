@@ -7,6 +7,18 @@ struct DensityPiece {
   Real slope, constant, unused_0, unused_1;
 };
 
+// A straight piece of a profile that begins above the ground, whose columns are in no table
+// (src/sky/bruneton/layers.h): density slope * h + constant on bottom <= h < top.
+struct LayerPiece {
+  Real bottom, top, slope, constant;
+  Real rayleigh, aerosol, ozone, unused;  // 1 for its component
+};
+
+// From x = (h / H)^height_power >= `share` on, height nodes are even in x.
+struct HeightKnot {
+  Real share, node, nodes_per_share, unused;
+};
+
 struct AirParameters {
   Real bottom_radius, top_height;  // km
   Real sun_angular_radius;         // rad
@@ -22,8 +34,11 @@ struct AirParameters {
   Real height_power, columns_height_last, columns_distance_last;
   Real march_samples;  // Gauss nodes of a piece
 
-  Real rayleigh_terms, aerosol_terms, ozone_terms, unused;  // how many pieces are in use
+  Real rayleigh_terms, aerosol_terms, ozone_terms, layer_count;  // how many pieces are in use
+  Real knot_count, unused_0, unused_1, unused_2;
   DensityPiece pieces[3 * MAX_DENSITY_TERMS];  // Rayleigh, aerosol, ozone
+  LayerPiece layers[MAX_LAYERS];
+  HeightKnot knots[MAX_HEIGHT_KNOTS];
 };
 
 // Coefficients of four bands (src/sky/atmosphere/medium.h), per km.

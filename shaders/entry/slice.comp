@@ -80,16 +80,20 @@ Sums multiple_scattering(SliceRow row, SunOfRay sun, Sums sums) {
   return sums;
 }
 
-// A ray that enters or leaves the planet's shadow is cut there too, so no list fits.
+bool is_cut(Ray ray, vec2 places) {
+  return (places.x > 0.0 && places.x < ray.length) || (places.y > 0.0 && places.y < ray.length);
+}
+
+// A ray that enters or leaves the shadow of the planet or a layer is cut there too, so no list fits.
 Sums shadowed_scattering(SliceRow row, SunOfRay sun, vec2 shadow, Sums sums) {
   Ray ray = row.ray;
   int nodes = int(air.march_samples);
   int piece = 0;
   float piece_begin = 0.0;
   float begin = 0.0;
-  for (int part = 0; part < MAX_CUTS + 3; ++part) {
+  for (int part = 0; part < MAX_CUTS + 3 + 2 * MAX_LAYERS; ++part) {
     if (begin >= ray.length) break;
-    float end = next_cut(ray, shadow, begin);
+    float end = next_cut(ray, sun, shadow, begin);
     float piece_end = piece < int(ray.cut_count) ? ray.cuts[piece] : ray.length;
     bool rising = piece_begin >= ray.lowest - 1e-6 * ray.length;
     float middle = 0.5 * (begin + end);
@@ -134,7 +138,10 @@ void main() {
   Sums sums;
   for (int g = 0; g < GROUPS; ++g) sums.rayleigh[g] = sums.aerosol[g] = sums.multiple[g] = vec4(0.0);
   vec2 shadow = shadow_cuts(ray.height, ray.mu, sun.mu_s, nu);
-  bool shadowed = (shadow.x > 0.0 && shadow.x < ray.length) || (shadow.y > 0.0 && shadow.y < ray.length);
+  bool shadowed = is_cut(ray, shadow);
+  for (int i = 0; i < int(air.layer_count); ++i)
+    shadowed = shadowed ||
+               is_cut(ray, grazing_cuts(ray.height, ray.mu, sun.mu_s, nu, air.layers[i].top));
   sums = shadowed ? shadowed_scattering(row, sun, shadow, sums) : listed_sunlight(row, sun, sums);
   if (slice.multiple_scattering == 1) sums = multiple_scattering(row, sun, sums);
 

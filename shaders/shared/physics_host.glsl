@@ -7,7 +7,9 @@
 #define Real float
 const float PI = 3.14159265358979;
 const int MAX_DENSITY_TERMS = 8;
-const int MAX_CUTS = 8;
+const int MAX_CUTS = 16;
+const int MAX_LAYERS = 8;
+const int MAX_HEIGHT_KNOTS = 50;
 
 // Abramowitz and Stegun 1964, 4.4.46: error below 2e-8 (GL promises 1e-4 at most, which moves the
 // sun rows of deep twilight by tenths of a percent in light).

@@ -63,7 +63,8 @@ glm::dvec3 Paths::columns_to_top(double h, double mu) const {
 
 Columns::Columns(const atmosphere::Medium& medium)
     : medium_(medium), paths_(medium), nodes_(size_t(kColumnHeights) * kColumnDistances) {
-  Geometry geometry = paths_.geometry();
+  const Paths smooth(without_layers(medium));
+  Geometry geometry = smooth.geometry();
   const double R = medium.bottom_radius_km, H = medium.top_height_km;
   parallel_for_ranges(kColumnHeights, 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
@@ -75,7 +76,7 @@ Columns::Columns(const atmosphere::Medium& medium)
         const double d = shortest + (longest - shortest) * j / (kColumnDistances - 1);
         // (R + H)^2 = r^2 + d^2 + 2 r d mu, written with heights; the zenith where d is 0.
         const double mu = d > 0 ? ((H - h) * (2 * R + H + h) - d * d) / (2 * (R + h) * d) : 1;
-        nodes_[i * kColumnDistances + j] = paths_.columns(h, std::clamp(mu, -1.0, 1.0), 0, d);
+        nodes_[i * kColumnDistances + j] = smooth.columns(h, std::clamp(mu, -1.0, 1.0), 0, d);
       }
     }
   });

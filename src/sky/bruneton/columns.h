@@ -27,7 +27,8 @@ class Paths {
   std::vector<double> breaks_;
 };
 
-/// The table of columns to the top that every march reads: coordinates in coordinates.glsl.
+/// The table of columns to the top that every march reads, without the layers of layers.h:
+/// coordinates in coordinates.glsl.
 class Columns {
  public:
   explicit Columns(const atmosphere::Medium& medium);

@@ -27,8 +27,14 @@ DirectionRows direction_rows(Geometry geometry, const Settings& settings, double
   return rows;
 }
 
-double height_node(const Settings& settings, double top_height_km, int i) {
-  return top_height_km * std::pow(double(i) / (settings.heights - 1), kHeightExponent);
+double height_node(const atmosphere::Medium& medium, const Settings& settings, int i) {
+  const std::vector<HeightKnot> knots = height_knots(medium, settings);
+  size_t knot = 0;
+  while (knot + 2 < knots.size() && knots[knot + 1].node <= i) ++knot;
+  const HeightKnot &from = knots[knot], &to = knots[knot + 1];
+  const double share =
+      from.share + (to.share - from.share) * (i - from.node) / double(to.node - from.node);
+  return medium.top_height_km * std::pow(share, kHeightExponent);
 }
 
 }  // namespace skylapse::sky::bruneton

@@ -20,8 +20,8 @@ DirectionRows direction_rows(Geometry geometry, const Settings& settings, double
 inline double direction_azimuth(int i, int azimuths) { return text::PI * (i + 0.5) / azimuths; }
 
 /// Height of a point of the tables: node i of settings.heights, clustered at the ground.
-double height_node(const Settings& settings, double top_height_km, int i);
-/// Exponent of that clustering: h = H (i / (N - 1))^kHeightExponent.
+double height_node(const atmosphere::Medium& medium, const Settings& settings, int i);
+/// Exponent of that clustering: h = H (i / (N - 1))^kHeightExponent but for layers (layers.h).
 inline constexpr double kHeightExponent = 2.5;
 
 }  // namespace skylapse::sky::bruneton

@@ -63,7 +63,7 @@ std::vector<std::vector<std::vector<glm::dvec4>>> mixture_moments(const atmosphe
   std::vector<std::vector<std::vector<glm::dvec4>>> moments(settings.heights);
   for (int i = 0; i < settings.heights; ++i) {
     // Just below the node: profiles end at the top, and the air there is what rays end in.
-    const double h = height_node(settings, medium.top_height_km, i) * (1 - 1e-9);
+    const double h = height_node(medium, settings, i) * (1 - 1e-9);
     for (const text::BandGroup& group : groups) {
       const glm::dvec4 air = group.rayleigh_scattering * medium.rayleigh.at(h);
       const glm::dvec4 particles = group.aerosol_scattering * medium.aerosol.at(h);

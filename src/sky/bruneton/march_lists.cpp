@@ -119,7 +119,7 @@ struct Builder {
 MarchLists march_lists(const Columns& columns, const Settings& settings, int samples) {
   Builder builder(columns, settings, samples);
   for (int i = 0; i < settings.heights; ++i) {
-    const double h = height_node(settings, columns.medium().top_height_km, i);
+    const double h = height_node(columns.medium(), settings, i);
     builder.lists.rows.push_back(direction_rows(builder.geometry, settings, h));
     const DirectionRows rows = builder.lists.rows.back();
     for (size_t k = 0; k < rows.mu.size(); ++k) builder.add_ray(h, rows.mu[k], int(k) >= rows.up);

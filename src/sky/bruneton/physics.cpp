@@ -53,6 +53,22 @@ void set_table_coordinates(text::AirParameters& air, const atmosphere::Medium& m
   air.columns_distance_last = kColumnDistances - 1;
 }
 
+void set_layers(text::AirParameters& air, const atmosphere::Medium& medium,
+                const Settings& settings) {
+  for (const Layer& layer : layers_aloft(medium)) {
+    const auto is = [&](Component component) { return layer.component == component ? 1.0 : 0.0; };
+    air.layers[int(air.layer_count)] = {
+        layer.bottom_km,         layer.top_km,           layer.slope_per_km,   layer.constant,
+        is(Component::rayleigh), is(Component::aerosol), is(Component::ozone), 0};
+    ++air.layer_count;
+  }
+  const std::vector<HeightKnot> knots = height_knots(medium, settings);
+  air.knot_count = double(knots.size()) - 1;
+  for (size_t i = 0; i + 1 < knots.size(); ++i)
+    air.knots[i] = {knots[i].share, double(knots[i].node),
+                    (knots[i + 1].node - knots[i].node) / (knots[i + 1].share - knots[i].share), 0};
+}
+
 }  // namespace
 
 text::AirParameters air_parameters(const atmosphere::Medium& medium, const Settings& settings) {
@@ -67,6 +83,7 @@ text::AirParameters air_parameters(const atmosphere::Medium& medium, const Setti
   air.rayleigh_terms = set_pieces(air, 0, medium.rayleigh);
   air.aerosol_terms = set_pieces(air, text::MAX_DENSITY_TERMS, medium.aerosol);
   air.ozone_terms = set_pieces(air, 2 * text::MAX_DENSITY_TERMS, medium.ozone);
+  set_layers(air, medium, settings);
   return air;
 }
 

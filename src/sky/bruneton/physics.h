@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sky/atmosphere/medium.h"
+#include "sky/bruneton/layers.h"
 #include "sky/bruneton/settings.h"
 #include "sky/bruneton/tables.h"
 
@@ -35,7 +36,9 @@ inline double abs(double x) { return x < 0 ? -x : x; }
 
 inline constexpr double PI = std::numbers::pi;
 inline constexpr int MAX_DENSITY_TERMS = atmosphere::kMaxDensityTerms;
-inline constexpr int MAX_CUTS = 8;
+inline constexpr int MAX_CUTS = 16;
+inline constexpr int MAX_LAYERS = kMaxLayers;
+inline constexpr int MAX_HEIGHT_KNOTS = kMaxHeightKnots;
 
 #include "atmosphere/parameters.glsl"
 

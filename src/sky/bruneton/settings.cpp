@@ -6,6 +6,7 @@
 
 #include "sky/bruneton/directions.h"
 #include "sky/bruneton/harmonics.h"
+#include "sky/bruneton/layers.h"
 #include "sky/bruneton/sun_rows.h"
 
 namespace skylapse::sky::bruneton {
@@ -132,6 +133,7 @@ Settings settings_for(Level level, const atmosphere::Medium& medium) {
   // The nodes of a high top are spread over the heights that scatter as those of a low one.
   s.heights = int(std::lround(s.heights * height_growth(medium)));
   if (thick) s.heights = int(std::lround(1.6 * s.heights));
+  s.heights += layer_nodes(medium);
   s.samples += int(std::lround(haze * (kHazeSamples - s.samples)));
   if (thick || difficulty.albedo > 0.5) s.stop_below = std::min(s.stop_below, 0.01);
   return s;

@@ -8,8 +8,8 @@
 namespace skylapse::sky::bruneton {
 namespace {
 
-static_assert(sizeof(text::Ray) == 16 * sizeof(double));
-static_assert(sizeof(SliceRowBlock) == 96 && sizeof(SunSample) == 32 && sizeof(ListSample) == 32,
+static_assert(sizeof(text::Ray) == 24 * sizeof(double));
+static_assert(sizeof(SliceRowBlock) == 128 && sizeof(SunSample) == 32 && sizeof(ListSample) == 32,
               "the layout of std430");
 
 /// The lists of one row; joined afterwards.

@@ -15,7 +15,7 @@ struct ListSample {
 };
 /// As in shaders/entry/slice.comp (std430).
 struct SliceRowBlock {
-  float ray[16];  // text::Ray
+  float ray[24];  // text::Ray
   float mu, whole[3];
   int first, count, first_piece, unused;
 };
