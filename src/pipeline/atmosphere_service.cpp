@@ -101,23 +101,23 @@ std::optional<sky::AtmosphereDisc> disc_of(const Twin& twin, const plan::Frame& 
 }  // namespace
 
 struct AtmosphereService::State {
-  State(const plan::Plan& the_plan, gpu::Backend the_backend, std::function<void(double)> report)
+  State(const plan::Plan& the_plan, gpu::Backend the_backend, std::function<bool(double)> report)
       : plan(the_plan), backend(the_backend), progress(std::move(report)) {}
 
   const plan::Plan& plan;
   gpu::Backend backend;
-  std::function<void(double)> progress;
+  std::function<bool(double)> progress;
 
   mutable std::mutex mutex;  // of all below
   std::shared_ptr<gpu::Context> context;
   std::optional<sky::bruneton::TableCache> cache;
   Recent<std::shared_ptr<const Tables>> tables{2};  // of air that changes; others are on the GPU
-  Recent<Model> models{4};
+  Recent<Model> models{2};                          // some 100 MB each
   AtmosphereRecord record;
   std::vector<std::string> notes;
 
   Status start();
-  Result<Model> model_of(const plan::Frame& frame);
+  Result<Model> model_of(const plan::Frame& frame);  // with the mutex held
   Result<Model> single_scattering_model(const plan::Frame& frame);
   Result<std::shared_ptr<const Tables>> tables_of(const Medium& medium, const Settings& settings);
   Result<Model> upload(const Tables& tables);
@@ -180,7 +180,6 @@ Result<Model> AtmosphereService::State::single_scattering_model(const plan::Fram
 }
 
 Result<Model> AtmosphereService::State::model_of(const plan::Frame& frame) {
-  const std::lock_guard lock(mutex);
   return apart([&]() -> Result<Model> {
     const Status started = start();
     if (!started) return started.error();
@@ -210,12 +209,15 @@ Result<Model> AtmosphereService::State::model_of(const plan::Frame& frame) {
 }
 
 AtmosphereService::AtmosphereService(const plan::Plan& plan, gpu::Backend backend,
-                                     std::function<void(double)> progress)
+                                     std::function<bool(double)> progress)
     : state_(std::make_unique<State>(plan, backend, std::move(progress))) {}
 
 AtmosphereService::~AtmosphereService() = default;
 
 Result<FrameAtmosphere> AtmosphereService::of_frame(const plan::Frame& frame) {
+  // The context does one thing at a time. Held until the slice is there, so that of air that
+  // changes one model exists and not one for each frame in flight.
+  std::unique_lock lock(state_->mutex);
   const auto model = state_->model_of(frame);
   if (!model) return model.error();
   const bool multiple = state_->plan.model == config::SkyModel::bruneton;
@@ -223,6 +225,7 @@ Result<FrameAtmosphere> AtmosphereService::of_frame(const plan::Frame& frame) {
   auto slice = model->gpu->slice(frame.camera_height, 90 * deg - elevation(frame.sun.direction),
                                  grid, {.multiple_scattering = multiple, .ground = true});
   if (!slice) return slice.error();
+  lock.unlock();
   FrameAtmosphere air{sky::bruneton::refined(*slice), {}, disc_of(*model->twin, frame)};
   air.sky_irradiance_xyz = horizontal_irradiance_xyz(air.slice);
   return air;

@@ -40,10 +40,11 @@ struct AtmosphereRecord {
 /// Safe to use from several threads.
 class AtmosphereService {
  public:
-  /// `progress`: share of a precomputation that is done; called from one thread at a time.
+  /// `progress`: told the share of a precomputation that is done, answers whether to go on; called
+  /// from one thread at a time.
   /// `plan` must outlive the service.
   AtmosphereService(const plan::Plan& plan, gpu::Backend backend,
-                    std::function<void(double)> progress = {});
+                    std::function<bool(double)> progress = {});
   ~AtmosphereService();
   AtmosphereService(const AtmosphereService&) = delete;
   AtmosphereService& operator=(const AtmosphereService&) = delete;

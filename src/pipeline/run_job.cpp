@@ -224,6 +224,7 @@ Result<RunSummary> run_job(const plan::Plan& plan, const RunOptions& as_asked) {
   AtmosphereService atmospheres(plan, options.backend, [&](double share) {
     if (options.on_progress)
       options.on_progress({long(100 * share), 100, 0, seconds_since(start), "atmosphere %"});
+    return options.stop_signal == nullptr || options.stop_signal->load() == 0;
   });
   const JobContext job{plan, options, **io, *displays, *ledger, atmospheres, *color_config};
   remove_leftovers(job);

@@ -112,11 +112,20 @@ TEST_P(AnyTables, OfNoAirAreDark) {
 
 TEST_P(AnyTables, ReportTheirProgress) {
   std::vector<double> shares;
-  value_of(precompute(*context_, standard_medium(18), odd_settings(),
-                      [&](double share) { shares.push_back(share); }));
+  value_of(precompute(*context_, standard_medium(18), odd_settings(), [&](double share) {
+    shares.push_back(share);
+    return true;
+  }));
   ASSERT_GE(shares.size(), 4u);
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_DOUBLE_EQ(shares.back(), 1);
+}
+
+TEST_P(AnyTables, StopWhenTheProgressSaysSo) {
+  const auto tables =
+      precompute(*context_, standard_medium(3), odd_settings(), [](double) { return false; });
+  ASSERT_FALSE(tables.ok());
+  EXPECT_EQ(tables.error().code, ErrorCode::interrupted);
 }
 
 SKYLAPSE_ON_EVERY_CONTEXT(AnyTables);

@@ -1,6 +1,7 @@
 #pragma once
 // The air as a physicist would describe it: continuous spectra and profiles. medium_at() takes it
 // to the bands that a renderer computes.
+#include "core/constants.h"
 #include "core/quantity.h"
 #include "core/result.h"
 #include "sky/atmosphere/medium.h"
@@ -9,9 +10,9 @@
 namespace skylapse::sky::atmosphere {
 
 struct Atmosphere {
-  Length bottom_radius = 6371.0 * km;
+  Length bottom_radius = kMeanEarthRadius;
   Length top_height = 100.0 * km;
-  Angle sun_angular_radius = 959.63 * arcsec;
+  Angle sun_angular_radius = kSolarRadiusAt1Au;
   Spectrum solar_irradiance;     // W m^-2 nm^-1 at 1 au
   Spectrum rayleigh_scattering;  // per km where the Rayleigh density is 1
   DensityProfile rayleigh;
@@ -49,7 +50,7 @@ struct AirDescription {
   Length stratospheric_bottom = 15.0 * km, stratospheric_top = 25.0 * km;
   double ozone_du = 300;  // Dobson units
   Pressure surface_pressure{1013.25, hPa};
-  Length planet_radius = 6371.0 * km;
+  Length planet_radius = kMeanEarthRadius;
   Length top_height = 100.0 * km;
   Spectrum ground_albedo;  // empty: grey 0.2
 };

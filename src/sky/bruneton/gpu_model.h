@@ -11,10 +11,12 @@
 
 namespace skylapse::sky::bruneton {
 
-/// Share of the work that is done, 0..1; called from the thread that computes.
-using Progress = std::function<void(double)>;
+/// Told the share of the work that is done, 0..1, from the thread that computes; answers whether to
+/// go on.
+using Progress = std::function<bool(double)>;
 
-/// The tables by compute shaders. Deterministic for one driver.
+/// The tables by compute shaders. Deterministic for one driver. Error interrupted where `progress`
+/// says no.
 Result<Tables> precompute(gpu::Context& context, const atmosphere::Medium& medium,
                           const Settings& settings, const Progress& progress = {});
 

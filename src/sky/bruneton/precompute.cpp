@@ -253,6 +253,10 @@ class Passes {
   std::vector<gpu::Texture> table_;
 };
 
+Error stopped() {
+  return {ErrorCode::interrupted, "the tables of the atmosphere were not finished", {}, {}};
+}
+
 /// One range of groups from the first order to finished tables.
 class Range {
  public:
@@ -265,7 +269,7 @@ class Range {
     ground_ = light;
     passes.gather();
     while (!watch(passes)) {
-      progress(share_done());
+      if (!progress(share_done())) return stopped();
       passes.fill_tables();
       passes.next_order(rows_of(light));
       light = passes.ground_light();
@@ -354,7 +358,7 @@ Result<Tables> precompute(gpu::Context& context, const atmosphere::Medium& mediu
   const std::vector<GroupRange> ranges = group_ranges(tables.groups());
   for (size_t i = 0; i < ranges.size(); ++i) {
     const auto report = [&](double share) {
-      if (progress) progress((double(i) + share) / double(ranges.size()));
+      return !progress || progress((double(i) + share) / double(ranges.size()));
     };
     const Status status = context.run([&](const gpu::Functions& gl) -> Status {
       Passes passes(gl, medium, settings, host, ranges[i]);
@@ -362,7 +366,7 @@ Result<Tables> precompute(gpu::Context& context, const atmosphere::Medium& mediu
       return Range(settings, host, ranges[i]).compute(passes, tables, report);
     });
     if (!status) return status.error();
-    report(1);
+    if (!report(1)) return stopped();
   }
   refill_sun_rows(tables);
   return tables;

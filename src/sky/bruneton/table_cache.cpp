@@ -72,7 +72,8 @@ TableCache::TableCache(fs::path folder, uint64_t limit_bytes)
 
 TableCache TableCache::standard() {
   TableCache cache({});
-  if (const auto base = path_in_environment("XDG_CACHE_HOME"))
+  // Relative paths are to be ignored (XDG Base Directory Specification 0.8).
+  if (const auto base = path_in_environment("XDG_CACHE_HOME"); base && base->is_absolute())
     cache.folder_ = *base / "skylapse";
   else if (const auto home = path_in_environment("HOME"))
     cache.folder_ = *home / ".cache" / "skylapse";
