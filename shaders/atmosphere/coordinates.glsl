@@ -48,7 +48,9 @@ vec3 layer_columns_to_top(Real h, Real mu) {
 vec3 columns_to_top(Real h, Real mu) {
   Real above = max(mu, horizon_mu(h));
   vec3 columns = fetch_columns(columns_texel(h, above));
-  if (air.layer_count > 0.5) columns += layer_columns_to_top(h, above);
+#if LAYERED
+  columns += layer_columns_to_top(h, above);
+#endif
   return columns;
 }
 

@@ -32,11 +32,13 @@ Real next_cut(Ray ray, SunOfRay sun, vec2 shadow, Real from) {
     if (ray.cuts[i] > least) next = min(next, ray.cuts[i]);
   if (shadow.x > least) next = min(next, shadow.x);
   if (shadow.y > least) next = min(next, shadow.y);
+#if LAYERED
   for (int i = 0; i < int(air.layer_count); ++i) {
     vec2 veil = grazing_cuts(ray.height, ray.mu, sun.mu_s, sun.nu, air.layers[i].top);
     if (veil.x > least) next = min(next, veil.x);
     if (veil.y > least) next = min(next, veil.y);
   }
+#endif
   return next;
 }
 

@@ -139,9 +139,11 @@ void main() {
   for (int g = 0; g < GROUPS; ++g) sums.rayleigh[g] = sums.aerosol[g] = sums.multiple[g] = vec4(0.0);
   vec2 shadow = shadow_cuts(ray.height, ray.mu, sun.mu_s, nu);
   bool shadowed = is_cut(ray, shadow);
+#if LAYERED
   for (int i = 0; i < int(air.layer_count); ++i)
     shadowed = shadowed ||
                is_cut(ray, grazing_cuts(ray.height, ray.mu, sun.mu_s, nu, air.layers[i].top));
+#endif
   sums = shadowed ? shadowed_scattering(row, sun, shadow, sums) : listed_sunlight(row, sun, sums);
   if (slice.multiple_scattering == 1) sums = multiple_scattering(row, sun, sums);
 

@@ -33,7 +33,7 @@ std::vector<glm::vec4> looked_up(gpu::Context& context, Filter filter,
   files.push_back(kEntry);
   const Status status = context.run([&](const gpu::Functions& gl) -> Status {
     const auto program =
-        gpu::Program::create(gl, kEntry.path, physics_defines(1, 1, filter), files);
+        gpu::Program::create(gl, kEntry.path, physics_defines(1, 1, filter, false), files);
     if (!program) return program.error();
     const auto physics = PhysicsBuffers::create(gl, physics_data(tables.medium, tables.settings, 2),
                                                 columns, {0, 1});

@@ -102,6 +102,31 @@ TEST_P(AnySlice, WithoutSourceTablesIsSingleScattering) {
   EXPECT_LT(distance(slice->smooth, twin.smooth), 1e-4);
 }
 
+TEST_P(AnySlice, OfAVeilInTheStratosphereIsTheTwins) {
+  atmosphere::Medium medium = standard_medium(4);
+  medium.top_height_km = 100;
+  for (atmosphere::DensityTerm term :
+       atmosphere::tent_profile(16.0 * km, 21.0 * km, 26.0 * km).terms) {
+    term.slope_per_km *= 5;
+    term.constant *= 5;
+    medium.aerosol.terms.push_back(term);
+  }
+  Tables bare;  // single scattering: what the layers' own columns and cuts are for
+  bare.medium = medium;
+  const auto model = GpuModel::create(context_, bare);
+  ASSERT_TRUE(model.ok()) << model.error().message;
+  const Twin twin(std::make_shared<const Tables>(bare));
+  for (const double sun_deg : {30.0, 86.2, 92.0}) {
+    const SliceGrid grid = slice_grid(medium, 0.1 * km, 12, 20);
+    const auto gl = model->slice(0.1 * km, sun_deg * deg, grid, {});
+    ASSERT_TRUE(gl.ok()) << gl.error().message;
+    const SkySlice judge = twin.slice(0.1 * km, sun_deg * deg, grid, {.ground = true});
+    // Profiles of the view's columns between nodes, as in every ray that is cut at a shadow.
+    EXPECT_LT(distance(gl->smooth, judge.smooth), 2e-3) << sun_deg;
+    EXPECT_LT(distance(gl->aerosol, judge.aerosol), 2e-3) << sun_deg;
+  }
+}
+
 TEST_P(AnySlice, ManyBandsAreSummedOverAllRanges) {
   const atmosphere::Medium medium = standard_medium(18);
   const auto tables = std::make_shared<const Tables>(precompute_twin(medium, odd_settings()));

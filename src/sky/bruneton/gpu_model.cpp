@@ -85,8 +85,8 @@ Result<Range> create_range(const gpu::Functions& gl, const Tables& tables, const
   range.xyz_weight = gpu::Buffer::of(gl, xyz_weights(tables.medium, groups));
   for (const auto& [program, entry] : {std::pair{&range.slice, "entry/slice.comp"},
                                        std::pair{&range.answer, "entry/answer.comp"}}) {
-    auto made =
-        gpu::Program::create(gl, entry, physics_defines(groups.count, fold, filter_of(info)));
+    auto made = gpu::Program::create(
+        gl, entry, physics_defines(groups.count, fold, filter_of(info), data.air.layer_count > 0));
     if (!made) return made.error();
     *program = std::move(made).value();
   }

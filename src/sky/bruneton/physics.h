@@ -40,6 +40,7 @@ inline constexpr int MAX_CUTS = 16;
 inline constexpr int MAX_LAYERS = kMaxLayers;
 inline constexpr int MAX_HEIGHT_KNOTS = kMaxHeightKnots;
 
+#define LAYERED 1
 #include "atmosphere/parameters.glsl"
 
 static_assert(sizeof(AirParameters) % (4 * sizeof(Real)) == 0 &&
@@ -93,6 +94,7 @@ class Physics {
   [[nodiscard]] vec4 fetch_ground(int g, Real row) const;
 
 #include "atmosphere/atmosphere.glsl"
+#undef LAYERED
 
  private:
   const PhysicsData& data_;

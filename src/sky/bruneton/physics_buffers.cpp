@@ -26,10 +26,11 @@ std::vector<float> floats_of(const std::vector<glm::dvec4>& values) {
   return values.empty() ? std::vector<float>{} : floats_of(&values[0][0], 4 * values.size());
 }
 
-std::vector<gpu::Define> physics_defines(int groups, int fold, Filter filter) {
+std::vector<gpu::Define> physics_defines(int groups, int fold, Filter filter, bool layered) {
   return {{"GROUPS", groups},
           {"MAX_GAUSS", kMaxGauss},
           {"FOLD", fold},
+          {"LAYERED", layered ? 1 : 0},
           {"EXACT_FILTER", filter == Filter::exact ? 1 : 0}};
 }
 

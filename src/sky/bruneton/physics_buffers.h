@@ -35,8 +35,9 @@ enum class Filter { sampler, exact };
 inline Filter filter_of(const gpu::ContextInfo& info) {
   return info.software ? Filter::sampler : Filter::exact;
 }
-/// The defines that physics_host.glsl needs.
-std::vector<gpu::Define> physics_defines(int groups, int fold, Filter filter);
+/// The defines that physics_host.glsl needs. `layered`: whether the air has layers that no table
+/// holds; software renderers run through the code of a loop even where it has no turns.
+std::vector<gpu::Define> physics_defines(int groups, int fold, Filter filter, bool layered);
 
 /// Members run inside Context::run.
 class PhysicsBuffers {

@@ -180,8 +180,8 @@ class Passes {
   }
 
   Status compile() {
-    std::vector<gpu::Define> defines =
-        physics_defines(range_.count, fold_, filter_of(gl_.context->info()));
+    std::vector<gpu::Define> defines = physics_defines(
+        range_.count, fold_, filter_of(gl_.context->info()), host_.data.air.layer_count > 0);
     const std::vector<gpu::Define> sizes{{"HEIGHTS", size_.heights},
                                          {"SUNS", size_.suns},
                                          {"ROWS", rows()},
