@@ -150,6 +150,16 @@ Status add_frames(Plan& plan, const Schedule& schedule, const std::vector<astro:
   return Done{};
 }
 
+/// Sites below the ground of a computed atmosphere are seen from it: said, not done in silence.
+void note_low_sites(Plan& plan) {
+  if (is_hosek_wilkie(plan.model)) return;
+  for (const config::Site& site : plan.job.sites)
+    if (site.position.height < camera_height(site))
+      plan.notes.push_back(
+          fmt::format("site '{}' at {:g} m is seen from height 0, the ground of the atmosphere",
+                      site.name, site.position.height.in(metre)));
+}
+
 }  // namespace
 
 Result<Plan, Diagnostics> make_plan(config::JobConfig job) {
@@ -169,6 +179,7 @@ Result<Plan, Diagnostics> make_plan(config::JobConfig job) {
   if (!air) return air.error();
   plan.air = *std::move(air);
   const auto skies = choose_model_and_suns(plan, *schedule);
+  note_low_sites(plan);
   const Status added = add_frames(plan, *schedule, skies);
   if (!added) return Diagnostics{added.error()};
   for (size_t o = 0; o < plan.job.outputs.size(); ++o) number_paths(plan, o);

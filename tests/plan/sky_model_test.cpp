@@ -56,6 +56,16 @@ TEST(SkyModel, HighSitesGiveTheAtmosphereAndLowOnesDoNot) {
   EXPECT_TRUE(says(plan, "site 'Prague' is 1001 m high")) << plan.model_reason;
 }
 
+TEST(SkyModel, SitesBelowTheGroundOfTheAtmosphereAreSeenFromItAndThePlanSaysSo) {
+  Scene scene = through_sunset();
+  EXPECT_TRUE(plan_of(scene).notes.empty());
+  scene.location = at_height("-100 m");
+  const auto plan = plan_of(scene);
+  for (const auto& frame : plan.frames) EXPECT_EQ(frame.camera_height, Length{});
+  ASSERT_EQ(plan.notes.size(), 1u);
+  EXPECT_NE(plan.notes[0].find("'Prague' at -100 m"), std::string::npos) << plan.notes[0];
+}
+
 TEST(SkyModel, AKeyThatOnlyAnAtmosphereKnowsGivesTheAtmosphere) {
   Scene scene;
   scene.more = "air: {ozone: 350 DU}";
