@@ -68,7 +68,7 @@ std::string bound_text(const std::optional<double>& bound) {
 
 /// The tables of a computed atmosphere, or nothing.
 std::string atmosphere_text(const plan::Plan& plan, const plan::Cost& cost) {
-  if (plan::is_hosek_wilkie(plan.model)) return "";
+  if (plan::is_fitted(plan.model)) return "";
   const config::Sky& sky = plan.job.sky;
   std::string text = fmt::format("atmosphere: {} wavelengths", sky.wavelengths);
   if (plan.model == config::SkyModel::bruneton)
@@ -114,7 +114,7 @@ std::string effect_summary(const PlannedWork& work) {
 }
 
 ordered_json atmosphere_json(const plan::Plan& plan, const plan::Cost& cost) {
-  if (plan::is_hosek_wilkie(plan.model)) return nullptr;
+  if (plan::is_fitted(plan.model)) return nullptr;
   return {{"level", sky::bruneton::name_of(plan.job.sky.level)},
           {"wavelengths", plan.job.sky.wavelengths},
           {"table_sets", cost.table_sets},

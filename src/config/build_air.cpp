@@ -91,7 +91,7 @@ void note_atmosphere_keys(const Section& section, SkyModel model, Air& air,
     if (!key.in_use) continue;
     // What came with a preset is the preset's doing.
     const Place place = section.field(key.key)->key_place;
-    if (is_hosek_wilkie(model) && (key.key == "preset" || !section.has("preset")))
+    if (is_fitted(model) && (key.key == "preset" || !section.has("preset")))
       context.errors.add(
           place, fmt::format("{} means nothing to the Hosek-Wilkie sky", section.path_of(key.key)),
           "use sky.model bruneton, single-scattering or auto");

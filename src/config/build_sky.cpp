@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <type_traits>
 
 #include "config/build_job.h"
 #include "config/words.h"
@@ -15,26 +17,95 @@ SkyModel sky_model(const Section& root) {
 
 namespace {
 
-/// Keys of one family of models, beside a model of the other.
+/// The models that know a key.
+struct KeyOwners {
+  std::string_view key;
+  std::vector<SkyModel> models;
+  std::string_view named;
+};
+
+const std::vector<KeyOwners>& key_owners() {
+  using enum SkyModel;
+  static const std::vector<KeyOwners> owners{
+      {"level", {bruneton}, "the model bruneton"},
+      {"wavelengths",
+       {bruneton, single_scattering, reference},
+       "the models bruneton, single-scattering and reference"},
+      {"orders", {bruneton, reference}, "the models bruneton and reference"},
+      {"steps", {bruneton, single_scattering}, "the models bruneton and single-scattering"},
+      {"slice", {bruneton, single_scattering}, "the models bruneton and single-scattering"},
+      {"precision", {bruneton, single_scattering}, "the models bruneton and single-scattering"},
+      {"samples", {reference}, "the model reference"},
+      {"relative_error", {reference}, "the model reference"},
+      {"seed", {reference}, "the model reference"},
+      {"cie_type", {cie}, "the model cie"},
+      {"fit", {hosek_wilkie, hosek_wilkie_gl}, "the models hosek-wilkie and hosek-wilkie-gl"},
+      {"solar_flux",
+       {hosek_wilkie, hosek_wilkie_gl},
+       "the models hosek-wilkie and hosek-wilkie-gl"},
+      {"accuracy", {}, "the model auto"},
+      {"time_budget", {}, "the model auto"},
+  };
+  return owners;
+}
+
+/// Keys that another model has.
 void refuse_keys_without_effect(const Section& section, SkyModel model,
                                 const ReadContext& context) {
-  const auto belong = [&](std::initializer_list<std::string_view> keys, const std::string& to) {
-    for (const std::string_view key : keys)
-      if (section.has(key))
-        context.errors.add(section.field(key)->key_place,
-                           fmt::format("{} has no effect here", section.path_of(key)),
-                           fmt::format("it belongs to {}", to));
-  };
-  switch (model) {
-    case SkyModel::automatic:
-      return;
-    case SkyModel::hosek_wilkie:
-    case SkyModel::hosek_wilkie_gl:
-      return belong({"level", "wavelengths"}, "the models bruneton and single-scattering");
-    case SkyModel::bruneton:
-    case SkyModel::single_scattering:
-      return belong({"fit", "solar_flux"}, "the models hosek-wilkie and hosek-wilkie-gl");
+  if (model == SkyModel::automatic) return;
+  for (const KeyOwners& owner : key_owners()) {
+    if (!section.has(owner.key) || std::ranges::find(owner.models, model) != owner.models.end())
+      continue;
+    context.errors.add(section.field(owner.key)->key_place,
+                       fmt::format("{} has no effect here", section.path_of(owner.key)),
+                       fmt::format("it belongs to {}", owner.named));
   }
+}
+
+/// A promise leaves the means to the planner.
+void refuse_means_beside_a_promise(const Section& section, const ReadContext& context) {
+  for (const std::string_view promise : {"accuracy", "time_budget"})
+    for (const std::string_view means : {"level", "wavelengths", "orders", "steps", "slice",
+                                         "precision", "samples", "relative_error", "fit"})
+      if (section.has(promise) && section.has(means))
+        context.errors.add(
+            section.field(means)->key_place,
+            fmt::format("{} beside {}", section.path_of(means), section.path_of(promise)),
+            "write the one or the other: the promise chooses how it is kept");
+}
+
+EffectChoice effects_of(const Section& section, const ReadContext& context) {
+  EffectChoice choice;
+  const auto& values = section.values("effects");
+  for (const Value& value : values) {
+    const auto& word = std::get<std::string>(value.data);
+    if (word == "auto" || word == "all") {
+      if (values.size() > 1)
+        context.errors.add(value.place, fmt::format("'{}' among other effects", word),
+                           "write it alone, or a list of effects without it");
+      choice.rule = word == "all" ? EffectChoice::Rule::all : EffectChoice::Rule::automatic;
+      continue;
+    }
+    choice.rule = EffectChoice::Rule::listed;
+    choice.listed.push_back(*value_of(sky::kEffectNames, word));
+  }
+  return choice;
+}
+
+/// Below the least numbers the two halves of the table have no shape; above the greatest it is
+/// larger than any picture.
+void read_slice(const Section& section, const ReadContext& context, Sky& sky) {
+  const auto size = section.get<PixelSize>("slice");
+  if (!size) return;
+  if (size->width < 4 || size->width > 2048 || size->height < 8 || size->height > 4096 ||
+      size->height % 2 != 0) {
+    context.errors.add(section.place_of("slice"),
+                       fmt::format("{} = {}x{} is no table of directions", section.path_of("slice"),
+                                   size->width, size->height),
+                       "allowed: 4 to 2048 azimuths, an even number from 8 to 4096 of zeniths");
+    return;
+  }
+  sky.slice_azimuths = size->width, sky.slice_zeniths = size->height;
 }
 
 }  // namespace
@@ -46,14 +117,36 @@ Sky build_sky(const Section& root, const ReadContext& context) {
   const auto set = [&](std::string_view key, const auto& words, auto& value) {
     if (const auto word = section->get<std::string>(key)) value = *value_of(words, *word);
   };
+  const auto set_integer = [&](std::string_view key, auto& value) {
+    if (const auto number = section->get<long>(key))
+      value = std::remove_reference_t<decltype(value)>(*number);
+  };
+  const auto span_of = [&](std::string_view key) {
+    return context.sources.span(section->place_of(key));
+  };
   set("model", kSkyModelWords, sky.model);
+  if (const auto share = section->get<double>("accuracy"))
+    sky.accuracy = Spanned<double>{*share, span_of("accuracy")};
+  if (const auto seconds = section->get<double>("time_budget"))
+    sky.time_budget = Spanned<Duration>{*seconds * second, span_of("time_budget")};
+  sky.effects = effects_of(*section, context);
   set("level", kLevelWords, sky.level);
-  sky.wavelengths = int(section->get<long>("wavelengths").value_or(sky.wavelengths));
+  set_integer("wavelengths", sky.wavelengths);
+  sky.wavelengths_given = section->has("wavelengths");
+  set_integer("orders", sky.orders);
+  set_integer("steps", sky.steps);
+  read_slice(*section, context, sky);
+  set("precision", kPrecisionWords, sky.precision);
+  set_integer("samples", sky.paths.samples);
+  sky.paths.relative_error = section->get<double>("relative_error");
+  set_integer("seed", sky.paths.seed);
+  set_integer("cie_type", sky.cie_type);
   set("fit", kFitWords, sky.fit);
   set("solar_flux", kSolarFluxWords, sky.solar_flux);
   set("sun_algorithm", kSunAlgorithmWords, sky.sun_algorithm);
   sky.sun_disc = section->get<bool>("sun_disc").value_or(sky.sun_disc);
   refuse_keys_without_effect(*section, sky.model, context);
+  refuse_means_beside_a_promise(*section, context);
   return sky;
 }
 

@@ -37,10 +37,6 @@ bool zone_is_known(const Section& root, const std::vector<Site>& sites) {
 
 }  // namespace
 
-bool is_hosek_wilkie(SkyModel model) {
-  return model == SkyModel::hosek_wilkie || model == SkyModel::hosek_wilkie_gl;
-}
-
 bool within_hosek_wilkie(double turbidity) {
   return turbidity >= kLowestTurbidity && turbidity <= kHighestTurbidity;
 }
@@ -65,7 +61,7 @@ std::optional<double> HazeReader::turbidity(const Section& section, std::string_
     return std::nullopt;
   }
   const double turbidity = turbidity_from_aerosol_depth(depth);
-  if (within_hosek_wilkie(turbidity) || !is_hosek_wilkie(model)) return turbidity;
+  if (within_hosek_wilkie(turbidity) || !is_fitted(model)) return turbidity;
   context.errors.add(
       value.place,
       fmt::format("{} is turbidity {:.3g}, beyond the Hosek-Wilkie sky", section.path_of(key),

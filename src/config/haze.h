@@ -11,8 +11,6 @@ namespace skylapse::config {
 inline constexpr std::array<std::string_view, 3> kHazeKeys{"turbidity", "visibility",
                                                            "aerosol_optical_depth"};
 
-bool is_hosek_wilkie(SkyModel model);
-
 /// Turbidities that the Hosek-Wilkie sky was fitted to: 1 to 10.
 bool within_hosek_wilkie(double turbidity);
 

@@ -16,6 +16,7 @@
 #include "output/image_writer.h"
 #include "sky/atmosphere/atmosphere.h"
 #include "sky/bruneton/settings.h"
+#include "sky/effects.h"
 #include "sky/hosek_wilkie/options.h"
 
 namespace skylapse::config {
@@ -108,12 +109,63 @@ struct Air {
   std::optional<Spanned<std::string>> needs_atmosphere;
 };
 
-enum class SkyModel { automatic, hosek_wilkie, bruneton, single_scattering, hosek_wilkie_gl };
+enum class SkyModel {
+  automatic,
+  cie,
+  preetham,
+  hosek_wilkie,
+  hosek_wilkie_gl,
+  single_scattering,
+  bruneton,
+  reference,
+};
+
+/// Whether the model is a fitted sky of an observer on the ground with the sun up; the others
+/// compute the light in an atmosphere, wherever camera and sun are.
+constexpr bool is_fitted(SkyModel model) {
+  return model == SkyModel::cie || model == SkyModel::preetham || model == SkyModel::hosek_wilkie ||
+         model == SkyModel::hosek_wilkie_gl;
+}
+
+/// What of the scene is computed.
+struct EffectChoice {
+  enum class Rule {
+    automatic,  // what the scene calls for
+    all,        // everything, whether it shows or not
+    listed,     // these and no others
+  };
+  Rule rule = Rule::automatic;
+  std::vector<sky::Effect> listed;
+};
+
+/// Arithmetic of an atmosphere: OpenGL in float, the same with tables rounded to half floats, or
+/// the CPU in double.
+enum class SkyPrecision { half, single, full };
+
+/// Paths of the reference, per pixel.
+struct PathSettings {
+  long samples = 1024;  // with relative_error: at most
+  std::optional<double> relative_error;
+  uint64_t seed = 1;
+};
 
 struct Sky {
   SkyModel model = SkyModel::automatic;
+  /// At most one of the two, and only where the planner is free to choose (model auto, level and
+  /// wavelengths not given): greatest rms relative error of the picture's sky; time for a frame.
+  std::optional<Spanned<double>> accuracy;
+  std::optional<Spanned<Duration>> time_budget;
+  EffectChoice effects;
   sky::bruneton::Level level = sky::bruneton::Level::standard;
-  int wavelengths = 16;  // bands of the atmosphere models, 3..32
+  int wavelengths = 16;            // bands of the atmosphere models, 3..32
+  bool wavelengths_given = false;  // written, not the default
+  int orders = 0;                  // of scattering, no tail; 0: until they converge
+  int steps = 0;                   // Gauss nodes of each piece of a view ray; 0: the model's own
+  /// Azimuths and zeniths of the table of directions that a frame is made from; 0: by the height.
+  int slice_azimuths = 0, slice_zeniths = 0;
+  SkyPrecision precision = SkyPrecision::single;
+  PathSettings paths;
+  int cie_type = 12;  // of the CIE general sky, 1..15
   sky::hosek_wilkie::Fit fit = sky::hosek_wilkie::Fit::spectral;
   sky::hosek_wilkie::SolarFlux solar_flux = sky::hosek_wilkie::SolarFlux::reference;
   bool sun_disc = true;

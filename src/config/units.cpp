@@ -90,7 +90,9 @@ constexpr UnitName kOzoneUnits[] = {{"DU", 1}};
 
 constexpr UnitName kWavelengthUnits[] = {{"nm", 1}, {"um", 1000}, {"µm", 1000, 0, false}};
 
-constexpr std::array<DimensionInfo, 14> kDimensions{{
+constexpr UnitName kShareUnits[] = {{"%", 0.01}};
+
+constexpr std::array<DimensionInfo, 15> kDimensions{{
     {"a number", {}},
     {"an angle", kAngleUnits, {}, true},
     {"a latitude", kAngleUnits, "deg", true},
@@ -105,6 +107,7 @@ constexpr std::array<DimensionInfo, 14> kDimensions{{
     {"a frame rate", kFrameRateUnits, "fps"},
     {"a column of ozone", kOzoneUnits},
     {"a wavelength", kWavelengthUnits},
+    {"a percentage", kShareUnits},
 }};
 
 }  // namespace

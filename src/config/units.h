@@ -22,6 +22,7 @@ enum class Dimension {
   frame_rate,      // frames per second; a plain number will do
   ozone,           // Dobson units
   wavelength,
+  share,  // of a whole
 };
 
 struct UnitName {

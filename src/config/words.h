@@ -13,12 +13,19 @@ namespace skylapse::config {
 template <class T, size_t N>
 using Words = std::array<std::pair<std::string_view, T>, N>;
 
-inline constexpr Words<SkyModel, 5> kSkyModelWords{
+inline constexpr Words<SkyModel, 8> kSkyModelWords{
     {{"auto", SkyModel::automatic},
+     {"cie", SkyModel::cie},
+     {"preetham", SkyModel::preetham},
      {"hosek-wilkie", SkyModel::hosek_wilkie},
-     {"bruneton", SkyModel::bruneton},
+     {"hosek-wilkie-gl", SkyModel::hosek_wilkie_gl},
      {"single-scattering", SkyModel::single_scattering},
-     {"hosek-wilkie-gl", SkyModel::hosek_wilkie_gl}}};
+     {"bruneton", SkyModel::bruneton},
+     {"reference", SkyModel::reference}}};
+
+inline constexpr Words<SkyPrecision, 3> kPrecisionWords{{{"half", SkyPrecision::half},
+                                                         {"float", SkyPrecision::single},
+                                                         {"double", SkyPrecision::full}}};
 
 inline constexpr Words<sky::bruneton::Level, 4> kLevelWords{
     {{"draft", sky::bruneton::Level::draft},

@@ -35,7 +35,7 @@ json sky_json(const plan::Plan& plan, const plan::Frame& frame) {
   json all{{"model", plan::name_of(plan.model)},
            {"disc", sky.sun_disc},
            {"sun_algorithm", name_of(sky.sun_algorithm)}};
-  if (plan::is_hosek_wilkie(plan.model)) {
+  if (plan::is_fitted(plan.model)) {
     all["fit"] = int(sky.fit);
     all["flux"] = int(sky.solar_flux);
     return all;

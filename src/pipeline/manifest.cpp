@@ -194,7 +194,7 @@ ordered_json computed_by_json(const JobContext& job) {
 /// Nothing for the model that runs without GL.
 ordered_json atmosphere_json(const JobContext& job) {
   if (job.plan.model == config::SkyModel::hosek_wilkie) return nullptr;
-  if (plan::is_hosek_wilkie(job.plan.model)) return {{"computed_by", computed_by_json(job)}};
+  if (plan::is_fitted(job.plan.model)) return {{"computed_by", computed_by_json(job)}};
   const config::Sky& sky = job.plan.job.sky;
   return {{"level", sky::bruneton::name_of(sky.level)},
           {"wavelengths", sky.wavelengths},

@@ -87,7 +87,7 @@ void add_tables(const Plan& plan, const std::vector<long>& frames, Cost& cost) {
 }  // namespace
 
 Cost estimate_cost(const Plan& plan, const std::vector<long>& frames) {
-  const bool computed = !is_hosek_wilkie(plan.model);
+  const bool computed = !is_fitted(plan.model);
   Rate per_pixel{kSkyNs, 0};
   for (const auto& output : plan.job.outputs) {
     const Rate rate = rate_of(output);

@@ -85,22 +85,6 @@ std::vector<image::PixelPosition> outline(const image::Camera& camera) {
 
 }  // namespace
 
-std::string name_of(Effect effect) {
-  switch (effect) {
-    case Effect::sun_disc:
-      return "sun-disc";
-    case Effect::ground:
-      return "ground";
-    case Effect::refraction:
-      return "refraction";
-    case Effect::twilight_continuation:
-      return "twilight-continuation";
-    case Effect::multiple_scattering:
-      return "multiple-scattering";
-  }
-  return "";
-}
-
 bool sun_disc_in_view(const image::Camera& camera, const astro::SkyState& sky, Angle horizon) {
   if (elevation(sky.sun_apparent) + sky.sun_radius <= horizon) return false;
   // A disc smaller than a pixel spreads over its neighbours: look one pixel further out.
@@ -127,7 +111,7 @@ bool ground_in_view(const image::Camera& camera, Angle horizon) {
 std::vector<EffectDecision> decide_effects(const Plan& plan, const Frame& frame) {
   const config::JobConfig& job = plan.job;
   return {decide_sun_disc(job, frame), decide_ground(job, frame), decide_refraction(job, frame),
-          is_hosek_wilkie(plan.model) ? decide_twilight(frame) : decide_multiple_scattering(plan)};
+          is_fitted(plan.model) ? decide_twilight(frame) : decide_multiple_scattering(plan)};
 }
 
 }  // namespace skylapse::plan

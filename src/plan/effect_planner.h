@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "plan/plan.h"
+#include "sky/effects.h"
 
 namespace skylapse::plan {
 
-enum class Effect { sun_disc, ground, refraction, twilight_continuation, multiple_scattering };
-std::string name_of(Effect effect);
+using sky::Effect;
 
 struct EffectDecision {
   Effect effect;

@@ -43,7 +43,7 @@ Status plan_metered(Plan& plan) {
 /// that the camera sees, which fades as the picture does, so that its brightness follows smoothly.
 Luminance clear_sky_of(const Plan& plan, const Frame& frame) {
   const Angle over = elevation(frame.sky.sun_apparent) - frame.horizon;
-  if (!is_hosek_wilkie(plan.model)) return sky::mean_computed_sky_luminance(over);
+  if (!is_fitted(plan.model)) return sky::mean_computed_sky_luminance(over);
   const Luminance sky = sky::mean_clear_sky_luminance(frame.sun.elevation);
   if (!frame.sun.extrapolated) return sky;
   const Illuminance at_horizon = std::numbers::pi * sky.in(cd_per_m2)*lux;
@@ -82,7 +82,7 @@ struct SkyMeter::Air {
 };
 
 SkyMeter::SkyMeter(const Plan& plan) : plan_(plan), air_(std::make_unique<Air>()) {
-  if (is_hosek_wilkie(plan.model)) return;
+  if (is_fitted(plan.model)) return;
   air_->coarse = plan.job;
   air_->coarse.sky.wavelengths = kMeterBands;
   air_->single_scattering = plan.model == config::SkyModel::single_scattering;
@@ -95,7 +95,7 @@ Result<Luminance> SkyMeter::read(const Frame& frame) {
   const auto luminance = [&](double sky_y) {
     return kLuminousEfficacy * sky_y * level / std::numbers::pi * cd_per_m2;
   };
-  if (is_hosek_wilkie(plan_.model)) {
+  if (is_fitted(plan_.model)) {
     const auto sky = sky_of_frame(plan_.job, frame);
     if (!sky) return sky.error();
     return luminance(sky->diffuse_irradiance_xyz().y);

@@ -107,7 +107,7 @@ std::vector<astro::SkyState> choose_model_and_suns(Plan& plan, const Schedule& s
 /// What the model is asked for: `sky_at_horizon` is used by Hosek-Wilkie only.
 void ask_model(const Plan& plan, Illuminance sky_at_horizon, Frame& frame) {
   const config::JobConfig& job = plan.job;
-  if (is_hosek_wilkie(plan.model)) {
+  if (is_fitted(plan.model)) {
     frame.sun = sun_for_sky(frame.sky, job.air.refraction, sky_at_horizon);
     return;
   }
@@ -126,8 +126,8 @@ Status add_frames(Plan& plan, const Schedule& schedule, const std::vector<astro:
       ++end;
     for (size_t t = 0; t < job.air.turbidity.size(); ++t)
       for (size_t a = 0; a < job.air.ground_albedo.size(); ++a) {
-        const auto at_horizon = is_hosek_wilkie(plan.model) ? sky_at_horizon(job, int(t), int(a))
-                                                            : Result<Illuminance>(Illuminance{});
+        const auto at_horizon = is_fitted(plan.model) ? sky_at_horizon(job, int(t), int(a))
+                                                      : Result<Illuminance>(Illuminance{});
         if (!at_horizon) return at_horizon.error();
         for (size_t c = 0; c < job.cameras.size(); ++c, ++sequence)
           for (size_t i = begin; i < end; ++i) {
@@ -152,7 +152,7 @@ Status add_frames(Plan& plan, const Schedule& schedule, const std::vector<astro:
 
 /// Sites below the ground of a computed atmosphere are seen from it: said, not done in silence.
 void note_low_sites(Plan& plan) {
-  if (is_hosek_wilkie(plan.model)) return;
+  if (is_fitted(plan.model)) return;
   for (const config::Site& site : plan.job.sites)
     if (site.position.height < camera_height(site))
       plan.notes.push_back(

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "config/words.h"
+
 namespace skylapse::plan {
 namespace {
 
@@ -47,23 +49,9 @@ std::optional<std::string> reason_in_time(const config::JobConfig& job, const Sc
 }  // namespace
 
 std::string name_of(SkyModel model) {
-  switch (model) {
-    case SkyModel::automatic:
-      return "auto";
-    case SkyModel::hosek_wilkie:
-      return "hosek-wilkie";
-    case SkyModel::bruneton:
-      return "bruneton";
-    case SkyModel::single_scattering:
-      return "single-scattering";
-    case SkyModel::hosek_wilkie_gl:
-      return "hosek-wilkie-gl";
-  }
+  for (const auto& [word, value] : config::kSkyModelWords)
+    if (value == model) return std::string(word);
   return "";
-}
-
-bool is_hosek_wilkie(SkyModel model) {
-  return model == SkyModel::hosek_wilkie || model == SkyModel::hosek_wilkie_gl;
 }
 
 ModelChoice choose_model(const config::JobConfig& job, const Schedule& schedule,
@@ -88,8 +76,7 @@ astro::RefractionConditions refraction_at(const config::JobConfig& job, const co
                                           SkyModel model) {
   constexpr double kScaleHeightKm = 8.4;  // of the pressure near the ground, US standard atmosphere
   astro::RefractionConditions air = job.air.refraction;
-  if (is_hosek_wilkie(model) || job.air.observer_pressure_given ||
-      site.position.height <= kNearGround)
+  if (is_fitted(model) || job.air.observer_pressure_given || site.position.height <= kNearGround)
     return air;
   air.pressure *= std::exp(-site.position.height.in(km) / kScaleHeightKm);
   return air;

@@ -9,12 +9,10 @@
 
 namespace skylapse::plan {
 
-/// "hosek-wilkie", "bruneton", "single-scattering", "hosek-wilkie-gl"; "auto" before the choice.
+/// The word of sky.model; "auto" before the choice.
 std::string name_of(config::SkyModel model);
 
-/// Whether the model is the fitted sky of an observer on the ground, sun up; the others compute the
-/// light in an atmosphere, wherever camera and sun are.
-bool is_hosek_wilkie(config::SkyModel model);
+using config::is_fitted;
 
 /// Cameras up to this height count as on the ground for the choice of a model. The Hosek-Wilkie sky
 /// was computed for an observer at sea level; at 1 km 11 % of the air lies below the camera, its

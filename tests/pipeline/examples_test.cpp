@@ -21,7 +21,7 @@ std::vector<std::filesystem::path> examples() {
 std::vector<long> quick_frames(plan::Plan& plan) {
   std::vector<long> frames(plan.frames.size());
   std::iota(frames.begin(), frames.end(), 1L);
-  if (plan::is_hosek_wilkie(plan.model)) return frames;
+  if (plan::is_fitted(plan.model)) return frames;
   plan.job.sky.level = sky::bruneton::Level::draft;
   plan.job.sky.wavelengths = 3;
   std::vector<long> few;
