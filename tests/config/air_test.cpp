@@ -197,8 +197,9 @@ TEST(AirErrors, NonsenseHasItsPlaceAndRange) {
             "angstrom_exponent, single_scattering_albedo, g, scale_height");
   EXPECT_THAT(error_after("air: {ozon: 300 DU}\n"), HasSubstr("did you mean ozone?"));
   EXPECT_EQ(error_after("sky: {model: brunetton}\n"),
-            "5 [brunetton] sky.model = brunetton is not known | allowed: auto, "
-            "hosek-wilkie, bruneton, single-scattering, hosek-wilkie-gl; did you mean bruneton?");
+            "5 [brunetton] sky.model = brunetton is not known | allowed: auto, cie, preetham, "
+            "hosek-wilkie, hosek-wilkie-gl, single-scattering, bruneton, reference; did you mean "
+            "bruneton?");
   EXPECT_EQ(error_after("sky: {wavelengths: 2}\n"),
             "5 [2] sky.wavelengths = 2 is out of range | allowed: 3 to 32");
 }
@@ -220,8 +221,8 @@ TEST(AirErrors, KeysThatADemandedModelMakesNothingOf) {
                           "sky.model bruneton, single-scattering or auto",
                           "5 [planet_radius] air.planet_radius means nothing to the Hosek-Wilkie "
                           "sky | use sky.model bruneton, single-scattering or auto",
-                          "6 [level] sky.level has no effect here | it belongs to the models "
-                          "bruneton and single-scattering"));
+                          "6 [level] sky.level has no effect here | it belongs to the model "
+                          "bruneton"));
   EXPECT_EQ(error_after("air: {preset: urban}\nsky: {model: hosek-wilkie-gl}\n"),
             "5 [preset] air.preset means nothing to the Hosek-Wilkie sky | use sky.model bruneton, "
             "single-scattering or auto");

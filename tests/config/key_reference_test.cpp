@@ -85,6 +85,12 @@ std::string summary(const JobConfig& job) {
                   air.surface_pressure.in(hPa), air.planet_radius.in(km), air.top_height.in(km),
                   job.air.needs_atmosphere.has_value(), int(job.sky.model), int(job.sky.level),
                   job.sky.wavelengths);
+  const Sky& sky = job.sky;
+  text += fmt::format(" | {} {} {} {}x{} {} | {} {} {} {} | {} {} {}", int(sky.effects.rule),
+                      sky.effects.listed.size(), sky.orders, sky.slice_azimuths, sky.slice_zeniths,
+                      int(sky.precision), sky.paths.samples, sky.paths.relative_error.value_or(0),
+                      sky.paths.seed, sky.cie_type, sky.accuracy.has_value(),
+                      sky.time_budget.has_value(), sky.steps);
   for (const Output& output : job.outputs) {
     if (const auto* image = std::get_if<ImageOutput>(&output))
       text += fmt::format(" | {} {} {} {}", int(image->sample_type), int(image->sun_policy),
