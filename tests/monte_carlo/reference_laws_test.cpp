@@ -106,6 +106,32 @@ TEST(Reference, BandsOnOnePathAgreeWithBandsByThemselves) {
   }
 }
 
+TEST(Reference, TheFirstOrderAndTheOthersMakeAll) {
+  struct Case {
+    Query query;
+    bool ground;
+  };
+  for (const Case& c :
+       {Case{kAfternoon, false}, Case{{5 * km, 60 * deg, 100 * deg, 40 * deg}, true},
+        Case{{1 * metre, 93 * deg, 80 * deg, 10 * deg}, false}}) {
+    const ReferenceAnswer all = reference_answer(reference_medium(), c.query,
+                                                 {.samples = 30000, .seed = 4, .ground = c.ground});
+    const ReferenceAnswer first =
+        reference_answer(reference_medium(), c.query,
+                         {.samples = 30000, .seed = 5, .max_order = 1, .ground = c.ground});
+    const ReferenceAnswer others =
+        reference_answer(reference_medium(), c.query,
+                         {.samples = 30000, .seed = 6, .min_order = 2, .ground = c.ground});
+    for (size_t b = 0; b < 3; ++b) {
+      const double error =
+          std::hypot(all.standard_error[b], first.standard_error[b], others.standard_error[b]);
+      EXPECT_NEAR(first.radiance[b] + others.radiance[b], all.radiance[b], 4 * error);
+      EXPECT_LT(error, 0.05 * all.radiance[b]) << "not a test: too few paths";
+      EXPECT_EQ(others.order1[b], 0);
+    }
+  }
+}
+
 /// The mean of what paths find that start into the air over bright ground.
 struct Found {
   double mean = 0, error = 0;

@@ -8,14 +8,17 @@ namespace {
 constexpr int kCellsOfPiece = 32;
 /// Shares of draws that follow single scattering, and the guide to multiply scattered light; the
 /// others follow density times transmittance.
-constexpr double kShareOfSunlight = 0.5, kShareOfGuide = 0.3;
+struct Shares {
+  double sunlight, guide;
+};
+constexpr Shares kAllOrders{0.5, 0.3}, kHigherOrders{0, 0.6};
 /// Sums below this are none: their reciprocals would overflow.
 constexpr double kLeastSum = 1e-250;
 
 }  // namespace
 
 FirstCollision::FirstCollision(const Optics& optics, const Place& place,
-                               const glm::dvec3& direction, const glm::dvec3& to_sun)
+                               const glm::dvec3& direction, const glm::dvec3& to_sun, int min_order)
     : optics_(optics),
       place_(place),
       direction_(direction),
@@ -23,11 +26,12 @@ FirstCollision::FirstCollision(const Optics& optics, const Place& place,
   optics.shells.follow(place.height, glm::dot(place.up, direction), trace_);
   optics.transmittances(trace_.total, through_);
   cells_.cut(optics.shells, ray_, trace_, kCellsOfPiece);
-  weigh(to_sun);
+  weigh(to_sun, min_order);
 }
 
 /// Each band has an equal say in where the paths go.
-void FirstCollision::weigh(const glm::dvec3& to_sun) {
+void FirstCollision::weigh(const glm::dvec3& to_sun, int min_order) {
+  const Shares share = min_order > 1 ? kHigherOrders : kAllOrders;
   const int bands = optics_.bands;
   std::vector<RayCells::Cell>& cells = cells_.cells();
   std::vector<PerBand> sunlit(cells.size()), natural(cells.size());
@@ -63,9 +67,9 @@ void FirstCollision::weigh(const glm::dvec3& to_sun) {
   }
   for (int b = 0; b < bands; ++b) {
     if (!(natural_sum[b] > kLeastSum)) continue;
-    const double lit = sunlit_sum[b] > kLeastSum ? kShareOfSunlight / sunlit_sum[b] : 0;
-    const double guided = kShareOfGuide / guided_sum[b];
-    const double rest = (1 - kShareOfGuide - (lit > 0 ? kShareOfSunlight : 0)) / natural_sum[b];
+    const double lit = sunlit_sum[b] > kLeastSum ? share.sunlight / sunlit_sum[b] : 0;
+    const double guided = share.guide / guided_sum[b];
+    const double rest = (1 - share.guide - (lit > 0 ? share.sunlight : 0)) / natural_sum[b];
     for (size_t i = 0; i < cells.size(); ++i)
       cells[i].weight += lit * sunlit[i][b] + (guided * guide[i] + rest) * natural[i][b];
   }

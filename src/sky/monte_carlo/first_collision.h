@@ -8,9 +8,9 @@ namespace skylapse::sky::monte_carlo {
 
 class FirstCollision {
  public:
-  /// `place` within the air.
+  /// `place` within the air; `min_order` as in PathRules.
   FirstCollision(const Optics& optics, const Place& place, const glm::dvec3& direction,
-                 const glm::dvec3& to_sun);
+                 const glm::dvec3& to_sun, int min_order);
 
   [[nodiscard]] bool possible() const { return !cells_.empty(); }
   [[nodiscard]] bool hits_ground() const { return trace_.hits_ground; }
@@ -22,7 +22,7 @@ class FirstCollision {
   Place sample(PathRandom& random, PerBand& factor) const;
 
  private:
-  void weigh(const glm::dvec3& to_sun);
+  void weigh(const glm::dvec3& to_sun, int min_order);
 
   const Optics& optics_;
   Place place_;

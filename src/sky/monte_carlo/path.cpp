@@ -93,8 +93,8 @@ bool Path::scatter_at(const Place& place) {
     rayleigh_[b] = optics_.rayleigh[b] * density.rayleigh;
     aerosol_[b] = optics_.aerosol[b] * density.aerosol;
   }
-  optics_.view_sun(place.height, glm::dot(place.up, to_sun_), rules_.sun, sun_);
-  if (sun_.visible > 0) {
+  if (gathers()) optics_.view_sun(place.height, glm::dot(place.up, to_sun_), rules_.sun, sun_);
+  if (gathers() && sun_.visible > 0) {
     const double nu = glm::dot(direction_, to_sun_);
     const double molecules = optics_.rayleigh_phase.at(nu) * sun_.visible;
     const double particles = optics_.aerosol_phase.at(nu) * sun_.visible;
@@ -134,7 +134,8 @@ bool Path::reflect_at(const Place& place) {
   ++order_;
   constexpr double kPerSteradian = 1 / std::numbers::pi;
   const double mu_sun = glm::dot(place.up, to_sun_);
-  const double cosine = optics_.sun_on_ground(place.height, mu_sun, rules_.sun, sun_);
+  const double cosine =
+      gathers() ? optics_.sun_on_ground(place.height, mu_sun, rules_.sun, sun_) : 0;
   const int bands = optics_.bands;
   if (cosine > 0)
     for (int b = 0; b < bands; ++b)

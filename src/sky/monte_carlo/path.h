@@ -22,12 +22,14 @@ struct Place {
 /// `axis` turned by the angle of cosine `nu`, at a uniform azimuth.
 glm::dvec3 turned(const glm::dvec3& axis, double nu, PathRandom& random);
 
-/// What one path found, per band: light scattered once, up to four times, and in all.
+/// What one path found, per band: light scattered once, up to four times, and in all; of each the
+/// orders that the rules let it gather.
 struct PathRadiance {
   PerBand order1, up_to_order4, all;
 };
 
 struct PathRules {
+  int min_order = 1;  // events before this one gather nothing
   int max_order = 0;  // scattering events and ground bounces; 0: no limit
   SunVisibility sun = SunVisibility::smooth_step;
   /// Paths whose weight fell below this share of the weight after their first event are ended by
@@ -73,6 +75,7 @@ class Path {
   [[nodiscard]] double expected_light(const Place& place) const;
   bool collide(const Meeting& at, bool forced, double chance_of_guide);
   void gather(int band, double value);
+  [[nodiscard]] bool gathers() const { return order_ >= rules_.min_order; }
   bool normalise();
   bool go_on();
 

@@ -75,7 +75,9 @@ class Sampler {
     const size_t batches = size_t((end - begin + kBatch - 1) / kBatch);
     std::vector<Sums> parts(batches);
     parallel_for_ranges(batches, 1, [&](size_t first, size_t last) {
-      Path path(optics_, {options_.max_order, options_.sun});
+      Path path(
+          optics_,
+          {.min_order = options_.min_order, .max_order = options_.max_order, .sun = options_.sun});
       PathRadiance found;
       for (size_t i = first; i < last; ++i) {
         const long from = begin + long(i) * kBatch, to = std::min(end, from + kBatch);
@@ -159,7 +161,7 @@ class ViewRay {
         direction_(direction),
         to_sun_(to_sun),
         options_(options),
-        first_(optics, start, direction, to_sun) {
+        first_(optics, start, direction, to_sun, options.min_order) {
     if (options.ground && first_.hits_ground()) {
       double brightest = 0;
       for (int b = 0; b < optics.bands; ++b)

@@ -18,12 +18,16 @@ struct ReferenceOptions {
   /// Stop once the standard error of every band's radiance is below this share of the radiance.
   std::optional<double> relative_error = {};
   uint64_t seed = 1;
-  int max_order = 0;    // scattering events and ground bounces together; 0: no limit
+  /// Least and greatest number of scattering events and ground bounces together; 0: no greatest.
+  /// min_order 2 leaves out what the sun lights directly, air and ground alike: light that can be
+  /// integrated exactly, so that the two together have less noise than all orders by paths.
+  int min_order = 1, max_order = 0;
   bool ground = false;  // add what the ground at the end of the view ray reflects
   SunVisibility sun = SunVisibility::smooth_step;
 };
 
-/// Per band of the medium [W m^-2 sr^-1 nm^-1], at 1 au, with the standard error of the mean.
+/// Per band of the medium [W m^-2 sr^-1 nm^-1], at 1 au, with the standard error of the mean; of
+/// the orders min_order to max_order.
 /// radiance, transmittance and sun_transmittance are as in bruneton::Answer.
 struct ReferenceAnswer {
   std::vector<double> radiance, standard_error;
