@@ -11,7 +11,6 @@
 #include "sky/bruneton/gpu_model.h"
 #include "sky/bruneton/slice_irradiance.h"
 #include "sky/bruneton/slice_refine.h"
-#include "sky/bruneton/table_cache.h"
 #include "sky/bruneton/twin.h"
 
 namespace skylapse::pipeline {
@@ -101,16 +100,20 @@ std::optional<sky::AtmosphereDisc> disc_of(const Twin& twin, const plan::Frame& 
 }  // namespace
 
 struct AtmosphereService::State {
-  State(const plan::Plan& the_plan, gpu::Backend the_backend, std::function<bool(double)> report)
-      : plan(the_plan), backend(the_backend), progress(std::move(report)) {}
+  State(const plan::Plan& the_plan, gpu::Backend the_backend, std::function<bool(double)> report,
+        std::optional<sky::bruneton::TableCache> the_cache)
+      : plan(the_plan),
+        backend(the_backend),
+        progress(std::move(report)),
+        cache(std::move(the_cache)) {}
 
   const plan::Plan& plan;
   gpu::Backend backend;
   std::function<bool(double)> progress;
 
   mutable std::mutex mutex;  // of all below
-  std::shared_ptr<gpu::Context> context;
   std::optional<sky::bruneton::TableCache> cache;
+  std::shared_ptr<gpu::Context> context;
   Recent<std::shared_ptr<const Tables>> tables{2};  // of air that changes; others are on the GPU
   Recent<Model> models{2};                          // some 100 MB each
   AtmosphereRecord record;
@@ -133,7 +136,7 @@ Status AtmosphereService::State::start() {
   if (!made) return made.error();
   context = *std::move(made);
   record.context = context->info();
-  cache = sky::bruneton::TableCache::standard();
+  if (!cache) cache = sky::bruneton::TableCache::standard();
   if (!cache->note().empty()) notes.push_back(cache->note());
   return Done{};
 }
@@ -209,8 +212,9 @@ Result<Model> AtmosphereService::State::model_of(const plan::Frame& frame) {
 }
 
 AtmosphereService::AtmosphereService(const plan::Plan& plan, gpu::Backend backend,
-                                     std::function<bool(double)> progress)
-    : state_(std::make_unique<State>(plan, backend, std::move(progress))) {}
+                                     std::function<bool(double)> progress,
+                                     std::optional<sky::bruneton::TableCache> cache)
+    : state_(std::make_unique<State>(plan, backend, std::move(progress), std::move(cache))) {}
 
 AtmosphereService::~AtmosphereService() = default;
 

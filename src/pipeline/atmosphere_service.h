@@ -11,6 +11,7 @@
 #include "plan/plan.h"
 #include "sky/atmosphere_disc.h"
 #include "sky/bruneton/sky_slice.h"
+#include "sky/bruneton/table_cache.h"
 
 namespace skylapse::pipeline {
 
@@ -42,9 +43,11 @@ class AtmosphereService {
  public:
   /// `progress`: told the share of a precomputation that is done, answers whether to go on; called
   /// from one thread at a time.
+  /// `cache`: where tables are kept; the standard one if not given.
   /// `plan` must outlive the service.
   AtmosphereService(const plan::Plan& plan, gpu::Backend backend,
-                    std::function<bool(double)> progress = {});
+                    std::function<bool(double)> progress = {},
+                    std::optional<sky::bruneton::TableCache> cache = {});
   ~AtmosphereService();
   AtmosphereService(const AtmosphereService&) = delete;
   AtmosphereService& operator=(const AtmosphereService&) = delete;
