@@ -1,5 +1,6 @@
 #include "sky/monte_carlo/first_collision.h"
 
+#include <numbers>
 #include <vector>
 
 namespace skylapse::sky::monte_carlo {
@@ -80,6 +81,18 @@ Place FirstCollision::ground() const {
   Place ground = place_.moved(ray_.radius, direction_, trace_.length);
   ground.height = 0;
   return ground;
+}
+
+PerBand FirstCollision::sunlit_ground(const glm::dvec3& to_sun) const {
+  PerBand light{};
+  SunView sun;
+  const double cosine =
+      optics_.sun_on_ground(0, glm::dot(ground().up, to_sun), SunVisibility::smooth_step, sun);
+  if (cosine > 0)
+    for (int b = 0; b < optics_.bands; ++b)
+      light[b] = optics_.albedo[b] * std::numbers::inv_pi * cosine * optics_.solar[b] *
+                 sun.transmittance[b] * through_[b];
+  return light;
 }
 
 Place FirstCollision::sample(PathRandom& random, PerBand& factor) const {

@@ -15,6 +15,8 @@ class FirstCollision {
   [[nodiscard]] bool possible() const { return !cells_.empty(); }
   [[nodiscard]] bool hits_ground() const { return trace_.hits_ground; }
   [[nodiscard]] Place ground() const;
+  /// Sunlight that the ground at the ray's end reflects into it, dimmed on the way.
+  [[nodiscard]] PerBand sunlit_ground(const glm::dvec3& to_sun) const;
   /// Transmittance along the whole ray.
   [[nodiscard]] const PerBand& through() const { return through_; }
 

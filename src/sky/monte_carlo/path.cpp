@@ -129,13 +129,14 @@ bool Path::scatter_at(const Place& place) {
   return go_on();
 }
 
-bool Path::reflect_at(const Place& place) {
+bool Path::reflect_at(const Place& place, Sunlight sunlight) {
   place_ = place;
   ++order_;
   constexpr double kPerSteradian = 1 / std::numbers::pi;
   const double mu_sun = glm::dot(place.up, to_sun_);
-  const double cosine =
-      gathers() ? optics_.sun_on_ground(place.height, mu_sun, rules_.sun, sun_) : 0;
+  const double cosine = gathers() && sunlight == Sunlight::unknown
+                            ? optics_.sun_on_ground(place.height, mu_sun, rules_.sun, sun_)
+                            : 0;
   const int bands = optics_.bands;
   if (cosine > 0)
     for (int b = 0; b < bands; ++b)

@@ -26,6 +26,10 @@ glm::dvec3 turned(const glm::dvec3& axis, double nu, PathRandom& random);
 /// orders that the rules let it gather.
 struct PathRadiance {
   PerBand order1, up_to_order4, all;
+  void add_first_order(const PerBand& light, int bands) {
+    for (int b = 0; b < bands; ++b)
+      order1[b] += light[b], up_to_order4[b] += light[b], all[b] += light[b];
+  }
 };
 
 struct PathRules {
@@ -52,8 +56,9 @@ class Path {
 
   /// Meets the air here: gathers sunlight and picks a way on. False: the path is over.
   bool scatter_at(const Place& place);
-  /// Meets the ground here; likewise.
-  bool reflect_at(const Place& place);
+  /// Meets the ground here; likewise. Sunlight that is known is not gathered.
+  enum class Sunlight { unknown, known };
+  bool reflect_at(const Place& place, Sunlight sunlight = Sunlight::unknown);
   /// Goes to the next event and through it; likewise.
   bool travel();
 

@@ -1,6 +1,6 @@
 #pragma once
-// Random numbers by counter: number n of path p is a pure function of (seed, p, n), so the same
-// paths come out on any number of threads and in any order.
+// Random numbers by counter: number n of path p of a stream is a pure function of (seed, stream, p,
+// n), so the same paths come out on any number of threads and in any order.
 #include <array>
 #include <cstdint>
 
@@ -21,11 +21,11 @@ inline std::array<uint32_t, 4> philox(std::array<uint32_t, 4> counter,
   return counter;
 }
 
-/// The numbers of one path, in order.
+/// The numbers of one path, in order. Streams are for pixels.
 class PathRandom {
  public:
-  PathRandom(uint64_t seed, uint64_t path)
-      : key_{uint32_t(seed), uint32_t(seed >> 32)}, path_(path) {}
+  PathRandom(uint64_t seed, uint64_t path, uint32_t stream = 0)
+      : key_{uint32_t(seed), uint32_t(seed >> 32)}, path_(path), stream_(stream) {}
 
   /// Uniform in (0, 1), 0 and 1 excluded; steps of 2^-53.
   double uniform() {
@@ -37,12 +37,13 @@ class PathRandom {
 
  private:
   void refill() {
-    block_ = philox({uint32_t(path_), uint32_t(path_ >> 32), next_++, 0}, key_);
+    block_ = philox({uint32_t(path_), uint32_t(path_ >> 32), next_++, stream_}, key_);
     used_ = 0;
   }
 
   std::array<uint32_t, 2> key_;
   uint64_t path_;
+  uint32_t stream_;
   uint32_t next_ = 0;
   std::array<uint32_t, 4> block_{};
   int used_ = 2;

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/parallel.h"
-#include "sky/monte_carlo/first_collision.h"
+#include "sky/monte_carlo/view_ray.h"
 
 namespace skylapse::sky::monte_carlo {
 namespace {
@@ -75,9 +75,7 @@ class Sampler {
     const size_t batches = size_t((end - begin + kBatch - 1) / kBatch);
     std::vector<Sums> parts(batches);
     parallel_for_ranges(batches, 1, [&](size_t first, size_t last) {
-      Path path(
-          optics_,
-          {.min_order = options_.min_order, .max_order = options_.max_order, .sun = options_.sun});
+      Path path(optics_, rules_of(options_));
       PathRadiance found;
       for (size_t i = first; i < last; ++i) {
         const long from = begin + long(i) * kBatch, to = std::min(end, from + kBatch);
@@ -102,18 +100,6 @@ class Sampler {
   const ReferenceOptions& options_;
 };
 
-/// The sun's centre, or for SunVisibility::disc a random point of the disc.
-glm::dvec3 sun_of_path(const Optics& optics, const glm::dvec3& centre, SunVisibility rule,
-                       PathRandom& random) {
-  if (rule == SunVisibility::smooth_step) return centre;
-  const double sine = std::sin(optics.sun_radius) * std::sqrt(random.uniform());
-  return turned(centre, std::sqrt(1 - sine * sine), random);
-}
-
-glm::dvec3 direction_of(Angle zenith, Angle azimuth) {
-  return {sin(zenith) * cos(azimuth), sin(zenith) * sin(azimuth), cos(zenith)};
-}
-
 std::vector<double> per_band(const Optics& optics, const PerBand& values) {
   return {values.begin(), values.begin() + optics.bands};
 }
@@ -137,69 +123,6 @@ std::vector<double> sun_transmittance(const Optics& optics, double height, doubl
   for (double& v : values) v *= sun.visible;
   return values;
 }
-
-/// Where the view ray starts to matter: the observer, or where it enters the air from above.
-std::optional<Place> entry(const Shells& shells, double height, const glm::dvec3& direction) {
-  const Place observer{height, {0, 0, 1}};
-  if (height <= shells.top()) return observer;
-  const double rm = (shells.radius() + height) * direction.z;
-  const double above = (height - shells.top()) * (2 * shells.radius() + height + shells.top());
-  const double root = rm * rm - above;
-  if (rm >= 0 || root <= 0) return std::nullopt;
-  Place place = observer.moved(shells.radius(), direction, above / (-rm + std::sqrt(root)));
-  place.height = shells.top();
-  return place;
-}
-
-/// All paths along one view ray.
-class ViewRay {
- public:
-  ViewRay(const Optics& optics, const Place& start, const glm::dvec3& direction,
-          const glm::dvec3& to_sun, const ReferenceOptions& options)
-      : optics_(optics),
-        start_(start),
-        direction_(direction),
-        to_sun_(to_sun),
-        options_(options),
-        first_(optics, start, direction, to_sun, options.min_order) {
-    if (options.ground && first_.hits_ground()) {
-      double brightest = 0;
-      for (int b = 0; b < optics.bands; ++b)
-        brightest = std::max(brightest, optics.albedo[b] * first_.through()[b]);
-      chance_of_ground_ = brightest > 0 ? std::clamp(brightest, 0.1, 0.6) : 0;
-      if (!first_.possible() && brightest > 0) chance_of_ground_ = 1;
-    }
-  }
-
-  [[nodiscard]] const PerBand& transmittance() const { return first_.through(); }
-  [[nodiscard]] bool dark() const { return !first_.possible() && chance_of_ground_ == 0; }
-
-  void operator()(Path& path, long index, PathRandom& random, PathRadiance& found) const {
-    const glm::dvec3 sun = sun_of_path(optics_, to_sun_, options_.sun, random);
-    path.begin(start_, direction_, sun, int(index % optics_.bands), random, found);
-    bool alive = false;
-    if (chance_of_ground_ > 0 && random.uniform() < chance_of_ground_) {
-      path.scale(first_.through());
-      path.scale(1 / chance_of_ground_);
-      alive = path.reflect_at(first_.ground());
-    } else if (first_.possible()) {
-      PerBand factor;
-      const Place place = first_.sample(random, factor);
-      path.scale(factor);
-      path.scale(1 / (1 - chance_of_ground_));
-      alive = path.scatter_at(place);
-    }
-    while (alive) alive = path.travel();
-  }
-
- private:
-  const Optics& optics_;
-  Place start_;
-  glm::dvec3 direction_, to_sun_;
-  const ReferenceOptions& options_;
-  FirstCollision first_;
-  double chance_of_ground_ = 0;
-};
 
 }  // namespace
 
