@@ -49,6 +49,7 @@ struct BandGroup {
   vec4 aerosol_extinction;
   vec4 ozone_absorption;
   vec4 ground_albedo;
+  vec4 source_scale;  // of the numbers in the source table, where those are half floats; else 1
 };
 
 // The part of a ray inside the air. The host makes it in double (src/sky/bruneton/rays.h), since a

@@ -23,9 +23,9 @@ struct SunSample {
 };
 struct SliceBlock {
   float mu_s;  // at the camera
-  int azimuths, rows;
-  int multiple_scattering, ground;  // switches
-  int unused_0, unused_1, unused_2;
+  int azimuths;
+  int first_azimuth, end_azimuth, first_row;  // of the part that is wanted
+  int multiple_scattering, ground, aerial_perspective;  // switches
 };
 layout(std140, binding = 3) uniform SliceUniforms { SliceBlock slice; };
 layout(std140, binding = 4) uniform WeightBlock { vec4 xyz_weight[4 * GROUPS]; };  // per band
@@ -126,39 +126,45 @@ vec4 project(int g, vec4 light) {
          xyz_weight[4 * g + 2] * light.z + xyz_weight[4 * g + 3] * light.w;
 }
 
-void main() {
-  int azimuth = int(gl_GlobalInvocationID.x);
-  int row_index = int(gl_WorkGroupID.y);
-  if (azimuth >= slice.azimuths) return;
-  SliceRow row = rows[row_index];
-  Ray ray = row.ray;
-  float nu = cosine_to_sun(row.mu, slice.mu_s, slice_azimuth(azimuth, slice.azimuths));
-  SunOfRay sun = sun_of_ray(ray, slice.mu_s, nu);
-
+Sums scattered_light(SliceRow row, SunOfRay sun) {
   Sums sums;
   for (int g = 0; g < GROUPS; ++g) sums.rayleigh[g] = sums.aerosol[g] = sums.multiple[g] = vec4(0.0);
-  vec2 shadow = shadow_cuts(ray.height, ray.mu, sun.mu_s, nu);
-  bool shadowed = is_cut(ray, shadow);
+  if (slice.aerial_perspective == 0 && row.ray.hits_ground > 0.5) return sums;
+  vec2 shadow = shadow_cuts(row.ray.height, row.ray.mu, sun.mu_s, sun.nu);
+  bool shadowed = is_cut(row.ray, shadow);
 #if LAYERED
   for (int i = 0; i < int(air.layer_count); ++i)
-    shadowed = shadowed ||
-               is_cut(ray, grazing_cuts(ray.height, ray.mu, sun.mu_s, nu, air.layers[i].top));
+    shadowed = shadowed || is_cut(row.ray, grazing_cuts(row.ray.height, row.ray.mu, sun.mu_s, sun.nu,
+                                                        air.layers[i].top));
 #endif
   sums = shadowed ? shadowed_scattering(row, sun, shadow, sums) : listed_sunlight(row, sun, sums);
   if (slice.multiple_scattering == 1) sums = multiple_scattering(row, sun, sums);
+  return sums;
+}
+
+void main() {
+  int azimuth = slice.first_azimuth + int(gl_GlobalInvocationID.x);
+  int row_index = slice.first_row + int(gl_WorkGroupID.y);
+  if (azimuth >= slice.end_azimuth) return;
+  SliceRow row = rows[row_index];
+  float nu = cosine_to_sun(row.mu, slice.mu_s, slice_azimuth(azimuth, slice.azimuths));
+  SunOfRay sun = sun_of_ray(row.ray, slice.mu_s, nu);
+  Sums sums = scattered_light(row, sun);
 
   int item = row_index * slice.azimuths + azimuth;
   vec4 smooth_sum = smooth_xyz[item];
   vec4 aerosol_sum = aerosol_xyz[item];
+  vec3 before_ground = slice.aerial_perspective == 1
+                           ? vec3(row.whole_rayleigh, row.whole_aerosol, row.whole_ozone)
+                           : vec3(0.0);
   RayLight light = dark_ray();  // for the transmittance to the ground
   for (int g = 0; g < GROUPS; ++g) {
     BandGroup band = band_group(g);
     vec4 sum = sums.multiple[g] + sums.rayleigh[g] * rayleigh_phase(nu) *
                                      (band.rayleigh_scattering * band.solar_irradiance);
     if (slice.ground == 1) {
-      light.transmittance[g] = exp(-optical_depth(
-          band, vec3(row.whole_rayleigh, row.whole_aerosol, row.whole_ozone)));
-      sum += ground_through_air(g, ray, sun, light);
+      light.transmittance[g] = exp(-optical_depth(band, before_ground));
+      sum += ground_through_air(g, row.ray, sun, light);
     }
     smooth_sum += project(g, sum);
     aerosol_sum += project(g, sums.aerosol[g] * (band.aerosol_scattering * band.solar_irradiance));

@@ -1,6 +1,6 @@
 #pragma once
 // What GL provides to the physics text (shaders/atmosphere/README.md lists it). Defines: GROUPS,
-// MAX_GAUSS, EXACT_FILTER: 1 where the samplers' interpolation is not that of float, and FOLD: how
+// MAX_GAUSS, SCALED_SOURCE: 1 where the source tables hold half floats, EXACT_FILTER: 1 where the samplers' interpolation is not that of float, and FOLD: how
 // many heights stand side by side along the azimuths of a source texture (1 unless it would be
 // deeper than a texture may be).
 
@@ -90,7 +90,11 @@ vec4 fetch_source(int g, vec3 texel) {
   texel.x += (air.azimuth_last + 1.0) * (height - story * float(FOLD));
   texel.z += zeniths * (story - height);
 #endif
+#if SCALED_SOURCE
+  return filtered(source_table[g], texel) * bands[g].source_scale;
+#else
   return filtered(source_table[g], texel);
+#endif
 }
 
 vec4 fetch_ground(int g, float row) {

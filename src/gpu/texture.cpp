@@ -8,7 +8,7 @@
 
 namespace skylapse::gpu {
 
-Result<Texture> Texture::create(const Functions& gl, TextureSize size, const float* texels) {
+Result<Texture> Texture::create_empty(const Functions& gl, TextureSize size, TexelFormat format) {
   const int limit = gl.context->info().max_texture_3d;
   const auto [smallest, largest] =
       std::minmax({size.width, size.height, size.depth == 0 ? 1 : size.depth});
@@ -23,25 +23,42 @@ Result<Texture> Texture::create(const Functions& gl, TextureSize size, const flo
   texture.handle_ =
       Handle(*gl.context, name, [](const Functions& f, unsigned n) { f.DeleteTextures(1, &n); });
   texture.size_ = size;
+  const GLenum stored = format == TexelFormat::float32 ? GL_RGBA32F : GL_RGBA16F;
   if (size.depth == 0)
-    gl.TextureStorage2D(name, 1, GL_RGBA32F, size.width, size.height);
+    gl.TextureStorage2D(name, 1, stored, size.width, size.height);
   else
-    gl.TextureStorage3D(name, 1, GL_RGBA32F, size.width, size.height, size.depth);
+    gl.TextureStorage3D(name, 1, stored, size.width, size.height, size.depth);
   gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
     gl.TextureParameteri(name, axis, GL_CLAMP_TO_EDGE);
-  if (texels != nullptr) texture.write(gl, texels);
+  return texture;
+}
+
+Result<Texture> Texture::create(const Functions& gl, TextureSize size, const float* texels) {
+  auto texture = create_empty(gl, size, TexelFormat::float32);
+  if (texture && texels != nullptr) texture->write(gl, texels);
+  return texture;
+}
+
+Result<Texture> Texture::create_half(const Functions& gl, TextureSize size,
+                                     const std::uint16_t* texels) {
+  auto texture = create_empty(gl, size, TexelFormat::float16);
+  if (texture) texture->write(gl, texels, TexelFormat::float16);
   return texture;
 }
 
 void Texture::write(const Functions& gl, const float* texels) const {
+  write(gl, texels, TexelFormat::float32);
+}
+
+void Texture::write(const Functions& gl, const void* texels, TexelFormat format) const {
+  const GLenum type = format == TexelFormat::float32 ? GL_FLOAT : GL_HALF_FLOAT;
   if (size_.depth == 0)
-    gl.TextureSubImage2D(handle_.name(), 0, 0, 0, size_.width, size_.height, GL_RGBA, GL_FLOAT,
-                         texels);
+    gl.TextureSubImage2D(handle_.name(), 0, 0, 0, size_.width, size_.height, GL_RGBA, type, texels);
   else
     gl.TextureSubImage3D(handle_.name(), 0, 0, 0, 0, size_.width, size_.height, size_.depth,
-                         GL_RGBA, GL_FLOAT, texels);
+                         GL_RGBA, type, texels);
 }
 
 std::vector<float> Texture::read(const Functions& gl) const {

@@ -1,7 +1,8 @@
 #pragma once
-// Tables that shaders interpolate in: textures of four floats a texel, filtered linearly and
+// Tables that shaders interpolate in: textures of four numbers a texel, filtered linearly and
 // clamped at their edges.
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/result.h"
@@ -17,6 +18,9 @@ struct TextureSize {
   }
 };
 
+/// Of each of the four numbers of a texel.
+enum class TexelFormat { float32, float16 };
+
 /// Members with a `gl` run inside Context::run.
 class Texture {
  public:
@@ -24,6 +28,9 @@ class Texture {
   /// RGBA32F; `texels` (4 floats each, x fastest) may be null: the content is then undefined.
   /// Refuses a size above the context's limit, naming it.
   static Result<Texture> create(const Functions& gl, TextureSize size, const float* texels);
+  /// RGBA16F from the bits of half floats, not null.
+  static Result<Texture> create_half(const Functions& gl, TextureSize size,
+                                     const std::uint16_t* texels);
 
   void write(const Functions& gl, const float* texels) const;
   /// Four floats a texel. Waits for the shaders that write it.
@@ -35,6 +42,9 @@ class Texture {
   [[nodiscard]] TextureSize size() const { return size_; }
 
  private:
+  static Result<Texture> create_empty(const Functions& gl, TextureSize size, TexelFormat format);
+  void write(const Functions& gl, const void* texels, TexelFormat format) const;
+
   Handle handle_;
   TextureSize size_;
 };

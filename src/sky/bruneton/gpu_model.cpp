@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <list>
 
 #include "core/parallel.h"
 #include "gpu/functions.h"
 #include "gpu/program.h"
+#include "sky/bruneton/half_source.h"
 #include "sky/bruneton/physics_buffers.h"
 #include "sky/bruneton/rays.h"
 #include "sky/bruneton/slice_lists.h"
@@ -16,14 +18,15 @@ namespace skylapse::sky::bruneton {
 namespace {
 
 constexpr int kGroupSize = 32;              // local_size_x of both shaders
+constexpr size_t kSliceBuffersKept = 4;     // some MB each
 constexpr size_t kQueriesAtOnce = 1 << 15;  // bounds the memory of long lists
 
 // As in shaders/entry/slice.comp and answer.comp (std140).
 struct SliceBlock {
   float mu_s;
-  int azimuths, rows;
-  int multiple_scattering, ground;
-  int unused[3];
+  int azimuths;
+  int first_azimuth, end_azimuth, first_row;
+  int multiple_scattering, ground, aerial_perspective;
 };
 struct AnswerBlock {
   int multiple_scattering, ground;
@@ -56,10 +59,36 @@ struct Range {
   gpu::Program slice, answer;
 };
 
-Result<Range> create_range(const gpu::Functions& gl, const Tables& tables, const PhysicsData& data,
-                           const Columns& columns, GroupRange groups) {
+/// The source tables of a range of groups; of half floats, with their scales put into `data`.
+Status upload_source(const gpu::Functions& gl, const Tables& tables, bool half, int fold,
+                     Range& range, PhysicsData& data) {
+  for (int g = range.groups.first; g < range.groups.first + range.groups.count; ++g) {
+    const auto texture = [&] {
+      const gpu::TextureSize size = source_size(tables.settings, fold);
+      if (tables.source.empty()) return gpu::Texture::create(gl, {1, 1, 1}, &glm::vec4(0)[0]);
+      if (!half)
+        return gpu::Texture::create(gl, size,
+                                    folded_source(tables.source[g], tables.settings, fold).data());
+      const HalfSource source = half_source(tables.source[g]);
+      data.groups[g].source_scale = source.scale;
+      return gpu::Texture::create_half(gl, size,
+                                       folded_source(source.halves, tables.settings, fold).data());
+    };
+    auto made = texture();
+    if (!made) return made.error();
+    range.source.push_back(std::move(made).value());
+  }
+  return Done{};
+}
+
+Result<Range> create_range(const gpu::Functions& gl, const Tables& tables, PhysicsData& data,
+                           const Columns& columns, GroupRange groups, bool half) {
   Range range;
   range.groups = groups;
+  const gpu::ContextInfo& info = gl.context->info();
+  const int fold = fold_of(tables.settings, info.max_texture_3d);
+  if (Status uploaded = upload_source(gl, tables, half, fold, range, data); !uploaded)
+    return uploaded.error();
   auto physics = PhysicsBuffers::create(gl, data, columns, groups);
   if (!physics) return physics.error();
   range.physics = std::move(physics).value();
@@ -70,23 +99,12 @@ Result<Range> create_range(const gpu::Functions& gl, const Tables& tables, const
                   tables.ground_irradiance[g].end());
     range.physics.set_ground(gl, rows);
   }
-  const gpu::ContextInfo& info = gl.context->info();
-  const int fold = fold_of(tables.settings, info.max_texture_3d);
-  const bool empty = tables.source.empty();
-  for (int g = groups.first; g < groups.first + groups.count; ++g) {
-    const std::vector<float> texels = empty
-                                          ? std::vector<float>(4, 0.0f)
-                                          : folded_source(tables.source[g], tables.settings, fold);
-    auto texture = gpu::Texture::create(
-        gl, empty ? gpu::TextureSize{1, 1, 1} : source_size(tables.settings, fold), texels.data());
-    if (!texture) return texture.error();
-    range.source.push_back(std::move(texture).value());
-  }
   range.xyz_weight = gpu::Buffer::of(gl, xyz_weights(tables.medium, groups));
   for (const auto& [program, entry] : {std::pair{&range.slice, "entry/slice.comp"},
                                        std::pair{&range.answer, "entry/answer.comp"}}) {
     auto made = gpu::Program::create(
-        gl, entry, physics_defines(groups.count, fold, filter_of(info), data.air.layer_count > 0));
+        gl, entry,
+        physics_defines(groups.count, fold, filter_of(info), data.air.layer_count > 0, half));
     if (!made) return made.error();
     *program = std::move(made).value();
   }
@@ -115,6 +133,9 @@ QueryRays query_rays(const Columns& columns, const Query& query) {
 
 /// The rows of a slice on the context, kept from frame to frame.
 struct SliceBuffers {
+  double height_km = -1;
+  SliceGrid grid;
+  SliceWindow window;
   gpu::Buffer rows, samples, places;
   std::vector<gpu::Buffer> weights;  // per range of groups
   gpu::Texture profiles;
@@ -129,22 +150,40 @@ struct GpuModel::State {
   bool has_source = false;
   std::vector<Range> ranges;
 
-  /// Those of the last camera height and grid; only on the context's thread.
+  /// Of a camera height, grid and rows; only on the context's thread.
   Result<const SliceBuffers*> slice_buffers(const gpu::Functions& gl, double height_km,
-                                            const SliceGrid& grid);
+                                            const SliceGrid& grid, SliceWindow window);
 
  private:
-  double last_height_km_ = -1;
-  SliceGrid last_grid_;
-  SliceBuffers last_;
+  Result<SliceBuffers> make_slice_buffers(const gpu::Functions& gl, double height_km,
+                                          const SliceGrid& grid, const SliceWindow& window) const;
+  std::list<SliceBuffers> recent_;  // the last few, the last used in front
 };
 
 Result<const SliceBuffers*> GpuModel::State::slice_buffers(const gpu::Functions& gl,
-                                                           double height_km,
-                                                           const SliceGrid& grid) {
-  if (height_km == last_height_km_ && grid == last_grid_) return &last_;
-  const SliceLists lists = slice_lists(*columns, data, settings, height_km, grid);
+                                                           double height_km, const SliceGrid& grid,
+                                                           SliceWindow window) {
+  window.azimuths = {};  // the lists are the same for all
+  for (auto i = recent_.begin(); i != recent_.end(); ++i)
+    if (i->height_km == height_km && i->grid == grid && i->window == window) {
+      recent_.splice(recent_.begin(), recent_, i);
+      return &recent_.front();
+    }
+  auto buffers = make_slice_buffers(gl, height_km, grid, window);
+  if (!buffers) return buffers.error();
+  recent_.push_front(*std::move(buffers));
+  if (recent_.size() > kSliceBuffersKept) recent_.pop_back();
+  return &recent_.front();
+}
+
+Result<SliceBuffers> GpuModel::State::make_slice_buffers(const gpu::Functions& gl, double height_km,
+                                                         const SliceGrid& grid,
+                                                         const SliceWindow& window) const {
+  const SliceLists lists = slice_lists(*columns, data, settings, height_km, grid, window);
   SliceBuffers buffers;
+  buffers.height_km = height_km;
+  buffers.grid = grid;
+  buffers.window = window;
   buffers.rows = gpu::Buffer::of(gl, lists.rows);
   buffers.samples = gpu::Buffer::of(gl, lists.samples);
   buffers.places = gpu::Buffer::of(gl, lists.places);
@@ -159,23 +198,22 @@ Result<const SliceBuffers*> GpuModel::State::slice_buffers(const gpu::Functions&
   auto profiles = gpu::Texture::create(gl, {nodes, pieces}, &lists.profiles[0][0]);
   if (!profiles) return profiles.error();
   buffers.profiles = std::move(profiles).value();
-  last_ = std::move(buffers);
-  last_height_km_ = height_km;
-  last_grid_ = grid;
-  return &last_;
+  return buffers;
 }
 
-Result<GpuModel> GpuModel::create(std::shared_ptr<gpu::Context> context, const Tables& tables) {
+Result<GpuModel> GpuModel::create(std::shared_ptr<gpu::Context> context, const Tables& tables,
+                                  ModelOptions options) {
   auto state = std::make_shared<State>();
   state->context = std::move(context);
   state->medium = tables.medium;
   state->columns = make_columns(tables.medium);
   state->has_source = !tables.source.empty();
   state->settings = tables.settings;
-  state->data = physics_data(tables.medium, tables.settings, MarchSettings{}.samples);
+  state->data = physics_data(tables.medium, tables.settings, options.samples);
   const Status status = state->context->run([&](const gpu::Functions& gl) -> Status {
     for (const GroupRange groups : group_ranges(tables.groups())) {
-      auto range = create_range(gl, tables, state->data, *state->columns, groups);
+      auto range =
+          create_range(gl, tables, state->data, *state->columns, groups, options.half_source);
       if (!range) return range.error();
       state->ranges.push_back(std::move(range).value());
     }
@@ -188,23 +226,29 @@ Result<GpuModel> GpuModel::create(std::shared_ptr<gpu::Context> context, const T
 Result<SkySlice> GpuModel::slice(Length camera_height, Angle sun_zenith, const SliceGrid& grid,
                                  SliceContent content) const {
   State& state = *state_;
-  const SliceBlock block{float(cos(sun_zenith)), grid.azimuths,
-                         grid.zeniths,           content.multiple_scattering && state.has_source,
-                         content.ground,         {}};
-  SkySlice slice{grid, state.medium.aerosol_g, sun_zenith.in(rad), {}, {}};
-  const size_t count = size_t(grid.azimuths) * grid.zeniths, bytes = count * sizeof(glm::vec4);
-  slice.smooth.resize(count);
-  slice.aerosol.resize(count);
+  const SliceWindow window = content.window.value_or(whole_window(grid));
+  SkySlice slice = dark_slice(state.medium, sun_zenith, grid, content.window);
+  if (window.empty()) return slice;
+  const auto block_of = [&](int first_row) {
+    return SliceBlock{float(cos(sun_zenith)),
+                      grid.azimuths,
+                      window.azimuths.begin,
+                      window.azimuths.end,
+                      first_row,
+                      content.multiple_scattering && state.has_source,
+                      content.ground,
+                      content.aerial_perspective};
+  };
+  const int half = grid.zeniths / 2, columns = window.azimuths.end - window.azimuths.begin;
+  const size_t bytes = slice.smooth.size() * sizeof(glm::vec4);
   const Status status = state.context->run([&](const gpu::Functions& gl) -> Status {
-    const gpu::Buffer uniforms = gpu::Buffer::of_block(gl, block);
     const gpu::Buffer smooth = gpu::Buffer::create(gl, bytes),
                       aerosol = gpu::Buffer::create(gl, bytes);
-    const auto lists = state.slice_buffers(gl, camera_height.in(km), grid);
+    const auto lists = state.slice_buffers(gl, camera_height.in(km), grid, window);
     if (!lists) return lists.error();
     for (size_t i = 0; i < state.ranges.size(); ++i) {
       const Range& range = state.ranges[i];
       range.physics.bind(gl, range.source);
-      uniforms.bind_uniform(gl, 3);
       range.xyz_weight.bind_uniform(gl, 4);
       (*lists)->rows.bind_storage(gl, 1);
       (*lists)->samples.bind_storage(gl, 2);
@@ -213,7 +257,12 @@ Result<SkySlice> GpuModel::slice(Length camera_height, Angle sun_zenith, const S
       (*lists)->profiles.bind(gl, unsigned(range.groups.count) + 1);
       smooth.bind_storage(gl, 4);
       aerosol.bind_storage(gl, 5);
-      range.slice.dispatch(gl, {gpu::groups_for(grid.azimuths, kGroupSize), grid.zeniths});
+      for (const auto& [rows, first] : {std::pair{window.sky, 0}, std::pair{window.ground, half}}) {
+        if (rows.empty()) continue;
+        const gpu::Buffer uniforms = gpu::Buffer::of_block(gl, block_of(first + rows.begin));
+        uniforms.bind_uniform(gl, 3);
+        range.slice.dispatch(gl, {gpu::groups_for(columns, kGroupSize), rows.end - rows.begin});
+      }
     }
     smooth.read(gl, 0, bytes, slice.smooth.data());
     aerosol.read(gl, 0, bytes, slice.aerosol.data());

@@ -27,6 +27,7 @@ void OrderTail::add(const OrderSums& order) {
 }
 
 bool OrderTail::done() const {
+  if (settings_.orders > 0) return orders_ >= settings_.orders;
   if (orders_ >= settings_.max_orders) return true;
   const glm::dvec4 addition = last_addition();
   // Two orders at least: without two there is no ratio.
@@ -39,7 +40,7 @@ glm::dvec4 OrderTail::ratio() const { return quotient(last_sum_, before_sum_); }
 
 OrderSums OrderTail::tail_factors() const {
   OrderSums factors(last_.size(), glm::dvec4(0));
-  if (before_.empty()) return factors;
+  if (before_.empty() || settings_.orders > 0) return factors;
   for (size_t i = 0; i < factors.size(); ++i) {
     const glm::dvec4 r = quotient(last_[i], before_[i]);
     for (int c = 0; c < 4; ++c)

@@ -20,7 +20,7 @@ class OrderTail {
   void add(const OrderSums& order);
 
   /// True when the last order added less than settings.stop_below, or settings.max_orders is
-  /// reached.
+  /// reached; where settings.orders is given, when it is reached.
   [[nodiscard]] bool done() const;
   /// What the last order added to the sum over all heights and suns, relative; per channel.
   [[nodiscard]] glm::dvec4 last_addition() const;
@@ -29,7 +29,7 @@ class OrderTail {
   /// What the orders not counted add to the sources, as multiples of the last order:
   /// r / (1 - r) at [height][sun row], r being the ratio there. Each place has its own:
   /// light lingers in thick layers. 0 where the ratio is 0.98 or more: such a series is not
-  /// geometric yet.
+  /// geometric yet. 0 everywhere where settings.orders is given.
   [[nodiscard]] OrderSums tail_factors() const;
   /// The same for the light on the ground, per sun row: that of the lowest height.
   [[nodiscard]] OrderSums ground_tail_factors() const;

@@ -39,12 +39,12 @@ void set_phase(text::AirParameters& air, const atmosphere::Medium& medium) {
 
 void set_table_coordinates(text::AirParameters& air, const atmosphere::Medium& medium,
                            const Settings& settings) {
-  const SunWarp warp = sun_warp(medium);
-  air.sun_centre = warp.centre_rad;
-  air.sun_width = warp.width_rad;
-  air.sun_first = warp.first();
+  const SunNodes suns = sun_nodes(medium, settings);
+  air.sun_centre = suns.warp.centre_rad;
+  air.sun_width = suns.warp.width_rad;
+  air.sun_first = suns.warp.first() - suns.first_share * suns.warp.span();
   air.sun_row_last = settings.sun_rows() - 1;
-  air.sun_rows_per_unit = air.sun_row_last / warp.span();
+  air.sun_rows_per_unit = settings.sun_rows_per_interval / (suns.share_step * suns.warp.span());
   air.height_last = settings.heights - 1;
   air.zenith_last = settings.table_zeniths - 1;
   air.azimuth_last = settings.table_azimuths - 1;
@@ -99,6 +99,7 @@ std::vector<text::BandGroup> band_groups(const atmosphere::Medium& medium) {
     group.aerosol_extinction[channel] = band.aerosol_extinction_per_km;
     group.ozone_absorption[channel] = band.ozone_absorption_per_km;
     group.ground_albedo[channel] = band.ground_albedo;
+    group.source_scale[channel] = 1;
   }
   return groups;
 }

@@ -26,11 +26,13 @@ std::vector<float> floats_of(const std::vector<glm::dvec4>& values) {
   return values.empty() ? std::vector<float>{} : floats_of(&values[0][0], 4 * values.size());
 }
 
-std::vector<gpu::Define> physics_defines(int groups, int fold, Filter filter, bool layered) {
+std::vector<gpu::Define> physics_defines(int groups, int fold, Filter filter, bool layered,
+                                         bool scaled) {
   return {{"GROUPS", groups},
           {"MAX_GAUSS", kMaxGauss},
           {"FOLD", fold},
           {"LAYERED", layered ? 1 : 0},
+          {"SCALED_SOURCE", scaled ? 1 : 0},
           {"EXACT_FILTER", filter == Filter::exact ? 1 : 0}};
 }
 
@@ -88,18 +90,32 @@ gpu::TextureSize source_size(const Settings& settings, int fold) {
           settings.table_zeniths * gpu::groups_for(settings.heights, fold)};
 }
 
-std::vector<float> folded_source(const std::vector<float>& source, const Settings& settings,
-                                 int fold) {
+namespace {
+
+template <class Number>
+std::vector<Number> folded(const std::vector<Number>& source, const Settings& settings, int fold) {
   if (fold == 1) return source;
   const size_t row = size_t(4) * settings.table_azimuths, rows = settings.sun_rows();
   const size_t slabs = settings.table_zeniths;
-  std::vector<float> result(4 * source_size(settings, fold).texels(), 0.0f);
+  std::vector<Number> result(4 * source_size(settings, fold).texels(), Number(0));
   for (size_t h = 0; h < size_t(settings.heights); ++h)
     for (size_t z = 0; z < slabs; ++z)
       for (size_t j = 0; j < rows; ++j)
         std::copy_n(&source[((h * slabs + z) * rows + j) * row], row,
                     &result[(((h / fold * slabs + z) * rows + j) * fold + h % fold) * row]);
   return result;
+}
+
+}  // namespace
+
+std::vector<float> folded_source(const std::vector<float>& source, const Settings& settings,
+                                 int fold) {
+  return folded(source, settings, fold);
+}
+
+std::vector<std::uint16_t> folded_source(const std::vector<std::uint16_t>& source,
+                                         const Settings& settings, int fold) {
+  return folded(source, settings, fold);
 }
 
 }  // namespace skylapse::sky::bruneton

@@ -37,7 +37,9 @@ inline Filter filter_of(const gpu::ContextInfo& info) {
 }
 /// The defines that physics_host.glsl needs. `layered`: whether the air has layers that no table
 /// holds; software renderers run through the code of a loop even where it has no turns.
-std::vector<gpu::Define> physics_defines(int groups, int fold, Filter filter, bool layered);
+/// `scaled`: whether the source tables hold half floats.
+std::vector<gpu::Define> physics_defines(int groups, int fold, Filter filter, bool layered,
+                                         bool scaled = false);
 
 /// Members run inside Context::run.
 class PhysicsBuffers {
@@ -60,8 +62,10 @@ class PhysicsBuffers {
 int fold_of(const Settings& settings, int max_texture_3d);
 /// Size of one group's source texture.
 gpu::TextureSize source_size(const Settings& settings, int fold);
-/// One group of Tables::source in that texture's order.
+/// One group of Tables::source, or of HalfSource, in that texture's order.
 std::vector<float> folded_source(const std::vector<float>& source, const Settings& settings,
                                  int fold);
+std::vector<std::uint16_t> folded_source(const std::vector<std::uint16_t>& source,
+                                         const Settings& settings, int fold);
 
 }  // namespace skylapse::sky::bruneton

@@ -26,19 +26,20 @@ int block_of(int outputs) {
 struct HostWork {
   Columns columns;
   PhysicsData data;
-  SunWarp warp;
+  SunNodes suns;
   MarchLists first, next;
   std::vector<float> sun_mu;
 
   HostWork(const atmosphere::Medium& medium, const Settings& settings)
-      : columns(medium), data(physics_data(medium, settings, 2)), warp(sun_warp(medium)) {
+      : columns(medium),
+        data(physics_data(medium, settings, 2)),
+        suns(sun_nodes(medium, settings)) {
     parallel_for_ranges(2, 1, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
         (i == 0 ? first : next) = march_lists(
             columns, settings, i == 0 ? settings.first_order_samples : settings.samples);
     });
-    for (int j = 0; j < settings.suns; ++j)
-      sun_mu.push_back(float(std::cos(warp.zenith_at(double(j) / (settings.suns - 1)))));
+    for (int j = 0; j < settings.suns; ++j) sun_mu.push_back(float(std::cos(suns.zenith_rad(j))));
   }
 };
 
@@ -191,7 +192,7 @@ class Passes {
                                          {"TABLE_AZIMUTHS", size_.table_azimuths},
                                          {"TABLE_ZENITHS", size_.table_zeniths},
                                          {"ROWS_PER_INTERVAL", size_.sun_rows_per_interval},
-                                         {"DARK_END", host_.warp.dark_end ? 1 : 0}};
+                                         {"DARK_END", host_.suns.dark_end ? 1 : 0}};
     defines.insert(defines.end(), sizes.begin(), sizes.end());
     const int orders = size_.harmonics + 1;
     const struct {
@@ -300,9 +301,9 @@ class Range {
   }
   /// All sun rows of one group's light on the ground.
   [[nodiscard]] std::vector<float> rows_of(OrderSums nodes) const {
-    if (host_.warp.dark_end) nodes.back() = glm::dvec4(0);
+    if (host_.suns.dark_end) nodes.back() = glm::dvec4(0);
     std::vector<glm::dvec4> rows(size_.sun_rows());
-    upsample_suns(&nodes[0][0], 4, &rows[0][0], 4, 4, size_, host_.warp.dark_end);
+    upsample_suns(&nodes[0][0], 4, &rows[0][0], 4, 4, size_, host_.suns.dark_end);
     return floats_of(rows);
   }
   [[nodiscard]] std::vector<float> rows_of(const std::vector<OrderSums>& groups) const {

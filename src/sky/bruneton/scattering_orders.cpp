@@ -23,14 +23,13 @@ ScatteringOrders::ScatteringOrders(const Columns& columns, const Settings& setti
     : settings_(settings),
       first_group_(first_group),
       data_(physics_data(columns.medium(), settings, 2)),
-      warp_(sun_warp(columns.medium())),
+      suns_(sun_nodes(columns.medium(), settings)),
       index_{settings.harmonics},
       first_lists_(march_lists(columns, settings, settings.first_order_samples)),
       lists_(march_lists(columns, settings, settings.samples)) {
   data_.columns = columns.nodes().data();
   data_.groups = {data_.groups.begin() + first_group, data_.groups.begin() + first_group + count};
-  for (int j = 0; j < settings.suns; ++j)
-    sun_mu_.push_back(std::cos(warp_.zenith_at(double(j) / (settings.suns - 1))));
+  for (int j = 0; j < settings.suns; ++j) sun_mu_.push_back(std::cos(suns_.zenith_rad(j)));
   Geometry text(data_);
   for (int i = 0; i <= kZenithSteps; ++i)
     row_of_zenith_.push_back(text.sun_row_of(std::cos(text::PI * i / kZenithSteps)));
@@ -154,7 +153,7 @@ Source ScatteringOrders::gather(const IncidentLight& incident) const {
                 std::vector(slab * settings_.table_zeniths * settings_.heights, glm::dvec4(0)));
   parallel_for_ranges(settings_.heights, 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      const int lit = settings_.suns - (warp_.dark_end ? 1 : 0);
+      const int lit = settings_.suns - (suns_.dark_end ? 1 : 0);
       for (int j = 0; j < lit; ++j) gather_point(i, j, incident, result);
       for (std::vector<glm::dvec4>& source : result) fill_sun_rows(i, source);
     }
@@ -211,7 +210,7 @@ void ScatteringOrders::fill_sun_rows(size_t height, std::vector<glm::dvec4>& sou
       std::copy_n(slab + size_t(j) * settings_.sun_rows_per_interval * azimuths, azimuths,
                   &nodes[j * azimuths]);
     upsample_suns(&nodes[0][0], 4 * azimuths, &slab[0][0], 4 * azimuths, int(4 * azimuths),
-                  settings_, warp_.dark_end);
+                  settings_, suns_.dark_end);
   }
 }
 
@@ -219,8 +218,8 @@ void ScatteringOrders::fill_ground_rows(std::vector<glm::dvec4>& ground) const {
   std::vector<glm::dvec4> nodes;
   for (int j = 0; j < settings_.suns; ++j)
     nodes.push_back(ground[size_t(j) * settings_.sun_rows_per_interval]);
-  if (warp_.dark_end) nodes.back() = glm::dvec4(0);
-  upsample_suns(&nodes[0][0], 4, &ground[0][0], 4, 4, settings_, warp_.dark_end);
+  if (suns_.dark_end) nodes.back() = glm::dvec4(0);
+  upsample_suns(&nodes[0][0], 4, &ground[0][0], 4, 4, settings_, suns_.dark_end);
 }
 
 void ScatteringOrders::fill_rows(std::vector<glm::dvec4>& source,

@@ -54,7 +54,7 @@ class ScatteringOrders {
   Settings settings_;
   int first_group_;
   PhysicsData data_;  // of these groups
-  SunWarp warp_;
+  SunNodes suns_;
   HarmonicIndex index_;
   MarchLists first_lists_, lists_;
   std::vector<double> sun_mu_;                             // of the sun nodes

@@ -144,7 +144,8 @@ std::string canonical_text(const Settings& s) {
   out << std::hexfloat << s.heights << ' ' << s.suns << ' ' << s.sun_rows_per_interval << ' '
       << s.directions_up << ' ' << s.directions_down << ' ' << s.azimuths << ' ' << s.harmonics
       << ' ' << s.table_azimuths << ' ' << s.table_zeniths << ' ' << s.samples << ' '
-      << s.first_order_samples << ' ' << s.max_orders << ' ' << s.stop_below;
+      << s.first_order_samples << ' ' << s.max_orders << ' ' << s.stop_below << ' ' << s.first_sun
+      << ' ' << s.warp_suns() << ' ' << s.orders;
   return out.str();
 }
 

@@ -26,6 +26,11 @@ double SliceGrid::elevation(double share, bool sky) const {
   return (sky ? sky_span_rad : ground_span_rad) * q * (b + (1 - b) * q);
 }
 
+SliceWindow whole_window(const SliceGrid& grid) {
+  const int half = grid.zeniths / 2;
+  return {{0, half}, {0, half}, {0, grid.azimuths}};
+}
+
 SliceGrid slice_grid(const atmosphere::Medium& medium, Length height, int azimuths, int zeniths) {
   const double h = height.in(km), R = medium.bottom_radius_km, H = medium.top_height_km;
   assert(std::isfinite(h) && h >= 0 && azimuths >= 2 && zeniths >= 4 && zeniths % 2 == 0);
@@ -52,6 +57,12 @@ SliceGrid slice_grid(const atmosphere::Medium& medium, Length height) {
   const int zeniths = 128 + 2 * int(64 * std::min(sin_dip / 0.11, 1.0));
   const int azimuths = 64 + 8 * int(24 * sin_dip);
   return slice_grid(medium, height, azimuths, zeniths);
+}
+
+SkySlice dark_slice(const atmosphere::Medium& medium, Angle sun_zenith, const SliceGrid& grid,
+                    const std::optional<SliceWindow>& window) {
+  const std::vector<glm::vec4> dark(size_t(grid.azimuths) * grid.zeniths, glm::vec4(0));
+  return {grid, medium.aerosol_g, sun_zenith.in(rad), dark, dark, window};
 }
 
 glm::dvec3 SkySlice::radiance_xyz(Angle zenith, Angle azimuth_from_sun) const {

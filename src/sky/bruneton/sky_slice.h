@@ -2,6 +2,7 @@
 // All a frame needs to know of the sky: radiance over (azimuth from the sun, zenith angle) at the
 // camera's height, already in XYZ. A pixel is two bilinear lookups.
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/quantity.h"
@@ -32,6 +33,27 @@ struct SliceGrid {
   friend bool operator==(const SliceGrid&, const SliceGrid&) = default;
 };
 
+/// Nodes [begin, end) of an axis.
+struct NodeRange {
+  int begin = 0, end = 0;
+  [[nodiscard]] bool empty() const { return begin >= end; }
+  friend bool operator==(const NodeRange&, const NodeRange&) = default;
+};
+
+/// A part of a slice: rows of the two halves, each counted from the horizon, by columns.
+struct SliceWindow {
+  NodeRange sky, ground, azimuths;
+  [[nodiscard]] bool empty() const { return azimuths.empty() || (sky.empty() && ground.empty()); }
+  [[nodiscard]] bool has_row(const SliceGrid& grid, int row) const {
+    const int half = grid.zeniths / 2, place = row < half ? row : row - half;
+    const NodeRange& range = row < half ? sky : ground;
+    return place >= range.begin && place < range.end;
+  }
+  friend bool operator==(const SliceWindow&, const SliceWindow&) = default;
+};
+/// All of a grid.
+SliceWindow whole_window(const SliceGrid& grid);
+
 /// The grid of a camera at `height` (0 to far outside; asserted finite and >= 0).
 SliceGrid slice_grid(const atmosphere::Medium& medium, Length height, int azimuths, int zeniths);
 /// Sizes that keep the error of the bilinear lookup within the bound of docs/atmosphere.md: more
@@ -46,10 +68,16 @@ struct SkySlice {
   /// [row][azimuth]. smooth: everything but the singly scattered aerosol light, and on the ground
   /// half also the ground itself, lit by sun and sky, seen through the air. w is not used.
   std::vector<glm::vec4> smooth, aerosol;
+  /// The nodes that were computed; the others are 0 and stand for nothing. Nothing given: all.
+  std::optional<SliceWindow> window{};
 
   /// Radiance at a zenith angle and azimuth from the sun: the double-precision lookup, which judges
   /// the pixel loop. Above sky_span (a camera in space) 0.
   [[nodiscard]] glm::dvec3 radiance_xyz(Angle zenith, Angle azimuth_from_sun) const;
 };
+
+/// A slice of a medium without any light; `window` says which of its nodes are to count.
+SkySlice dark_slice(const atmosphere::Medium& medium, Angle sun_zenith, const SliceGrid& grid,
+                    const std::optional<SliceWindow>& window = {});
 
 }  // namespace skylapse::sky::bruneton

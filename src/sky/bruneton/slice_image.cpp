@@ -18,13 +18,6 @@ using kernel::kBlock;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Level unit vector towards the sun; north where the sun has no azimuth.
-glm::dvec3 level_direction(const Direction<Enu>& sun) {
-  const double level = std::hypot(sun.x(), sun.y());
-  if (level == 0) return {0, 1, 0};
-  return {sun.x() / level, sun.y() / level, 0};
-}
-
 /// What all rows of one call share.
 struct Scene {
   const image::Camera& camera;
@@ -203,6 +196,12 @@ void render_map(const Scene& scene, int first_row, image::FrameBuffer& out) {
 }
 
 }  // namespace
+
+glm::dvec3 level_direction(const Direction<Enu>& sun) {
+  const double level = std::hypot(sun.x(), sun.y());
+  if (level == 0) return {0, 1, 0};
+  return {sun.x() / level, sun.y() / level, 0};
+}
 
 void render_slice_rows(const image::Camera& camera, const SliceImageInputs& inputs, int first_row,
                        image::FrameBuffer& out) {

@@ -9,6 +9,10 @@
 
 namespace skylapse::sky::bruneton {
 
+/// Level unit vector towards the sun: where azimuths of a slice are 0. North where the sun has no
+/// azimuth.
+glm::dvec3 level_direction(const Direction<Enu>& sun);
+
 struct SliceImageInputs {
   const SkySlice* slice = nullptr;  // not null
   /// Where the sun stands; its azimuth is what counts, the zenith angle is the slice's. In the

@@ -140,11 +140,12 @@ ListSample list_sample(double sun_scale, double nu_scale, double mu, double heig
 }
 
 SliceLists slice_lists(const Columns& columns, const PhysicsData& data, const Settings& settings,
-                       double height_km, const SliceGrid& grid) {
+                       double height_km, const SliceGrid& grid, const SliceWindow& window) {
   const std::vector<SliceRow> rows = slice_rows(columns, height_km, grid);
   std::vector<RowLists> parts(rows.size());
   parallel_for_ranges(rows.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t j = begin; j < end; ++j) parts[j] = RowBuilder(data, settings, rows[j]).build();
+    for (size_t j = begin; j < end; ++j)
+      if (window.has_row(grid, int(j))) parts[j] = RowBuilder(data, settings, rows[j]).build();
   });
   SliceLists lists;
   for (RowLists& part : parts) {

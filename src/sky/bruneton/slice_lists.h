@@ -37,9 +37,10 @@ struct SliceLists {
   std::vector<glm::vec4> profiles;
 };
 
-/// `data` holds the coordinates of the tables and the march's Gauss nodes.
+/// `data` holds the coordinates of the tables and the march's Gauss nodes. Rows outside `window`
+/// have no samples.
 SliceLists slice_lists(const Columns& columns, const PhysicsData& data, const Settings& settings,
-                       double height_km, const SliceGrid& grid);
+                       double height_km, const SliceGrid& grid, const SliceWindow& window);
 
 /// Where a place lies in the source table of these settings.
 ListSample list_sample(double sun_scale, double nu_scale, double mu, double height_km,

@@ -94,11 +94,26 @@ struct Layout {
   size_t line_step, node_step;
 };
 
-void refine_lines(const glm::vec4* from, const Layout& source, glm::vec4* to, const Layout& target,
-                  int by, End end) {
-  parallel_for_ranges(size_t(source.lines), 4, [&](size_t begin, size_t stop) {
+/// Nodes of an axis between which the curves are right: those with a computed neighbour on both
+/// sides, and the ends of the axis.
+NodeRange smooth_part(const NodeRange& computed, int nodes) {
+  if (computed.empty()) return {};
+  return {computed.begin == 0 ? 0 : computed.begin + 1,
+          computed.end == nodes ? nodes : computed.end - 1};
+}
+
+/// The same nodes on the finer axis.
+NodeRange finer(const NodeRange& nodes, int by) {
+  if (nodes.empty()) return {};
+  return {nodes.begin * by, (nodes.end - 1) * by + 1};
+}
+
+void refine_lines(const glm::vec4* from, const Layout& source, const NodeRange& lines,
+                  glm::vec4* to, const Layout& target, int by, End end) {
+  if (lines.empty()) return;
+  parallel_for_ranges(size_t(lines.end - lines.begin), 4, [&](size_t begin, size_t stop) {
     Line line(source.nodes);
-    for (size_t l = begin; l < stop; ++l)
+    for (size_t l = lines.begin + begin; l < lines.begin + stop; ++l)
       for (int c = 0; c < 3; ++c) {
         for (int i = 0; i < source.nodes; ++i)
           line.value[i] = from[l * source.line_step + i * source.node_step][c];
@@ -108,16 +123,20 @@ void refine_lines(const glm::vec4* from, const Layout& source, glm::vec4* to, co
 }
 
 std::vector<glm::vec4> refined(const std::vector<glm::vec4>& texels, const SliceGrid& coarse,
-                               const SliceGrid& fine, Refinement by) {
+                               const SliceWindow& window, const SliceGrid& fine, Refinement by) {
   const int n = coarse.azimuths, m = fine.azimuths;
   const int half = coarse.zeniths / 2, fine_half = fine.zeniths / 2;
+  const NodeRange columns = finer(smooth_part(window.azimuths, n), by.azimuths);
   std::vector<glm::vec4> rows(size_t(m) * coarse.zeniths), all(size_t(m) * fine.zeniths);
-  refine_lines(texels.data(), {coarse.zeniths, n, size_t(n), 1}, rows.data(),
-               {coarse.zeniths, m, size_t(m), 1}, by.azimuths, End::level);
-  for (const int side : {0, 1})
-    refine_lines(rows.data() + size_t(side) * half * m, {m, half, 1, size_t(m)},
-                 all.data() + size_t(side) * fine_half * m, {m, fine_half, 1, size_t(m)},
-                 by.zeniths, End::free);
+  for (const int side : {0, 1}) {
+    const NodeRange& wanted = side == 0 ? window.sky : window.ground;
+    const size_t first = size_t(side) * half, first_fine = size_t(side) * fine_half;
+    if (wanted.empty()) continue;
+    refine_lines(texels.data() + first * n, {half, n, size_t(n), 1}, wanted,
+                 rows.data() + first * m, {half, m, size_t(m), 1}, by.azimuths, End::level);
+    refine_lines(rows.data() + first * m, {m, half, 1, size_t(m)}, columns,
+                 all.data() + first_fine * m, {m, fine_half, 1, size_t(m)}, by.zeniths, End::free);
+  }
   return all;
 }
 
@@ -125,11 +144,19 @@ std::vector<glm::vec4> refined(const std::vector<glm::vec4>& texels, const Slice
 
 SkySlice refined(const SkySlice& slice, Refinement by) {
   assert(by.azimuths >= 1 && by.zeniths >= 1);
+  const SliceGrid& coarse = slice.grid;
+  const SliceWindow window = slice.window.value_or(whole_window(coarse));
   SkySlice fine = slice;
-  fine.grid.azimuths = (slice.grid.azimuths - 1) * by.azimuths + 1;
-  fine.grid.zeniths = 2 * ((slice.grid.zeniths / 2 - 1) * by.zeniths + 1);
-  fine.smooth = refined(slice.smooth, slice.grid, fine.grid, by);
-  fine.aerosol = refined(slice.aerosol, slice.grid, fine.grid, by);
+  fine.grid.azimuths = (coarse.azimuths - 1) * by.azimuths + 1;
+  fine.grid.zeniths = 2 * ((coarse.zeniths / 2 - 1) * by.zeniths + 1);
+  fine.smooth = refined(slice.smooth, coarse, window, fine.grid, by);
+  fine.aerosol = refined(slice.aerosol, coarse, window, fine.grid, by);
+  if (slice.window) {
+    const int half = coarse.zeniths / 2;
+    fine.window = SliceWindow{finer(smooth_part(window.sky, half), by.zeniths),
+                              finer(smooth_part(window.ground, half), by.zeniths),
+                              finer(smooth_part(window.azimuths, coarse.azimuths), by.azimuths)};
+  }
   return fine;
 }
 

@@ -16,7 +16,9 @@ struct Refinement {
 /// itself: a cubic through the logarithms whose slopes are central differences, capped where
 /// neighbouring steps differ much; through the values with monotone slopes (0 at an extremum, at
 /// most 3 x the smaller step) where one is not positive or a step exceeds a factor of e^4. The two
-/// halves do not mix. Uses all cores; the result does not depend on their number.
+/// halves do not mix. Of a slice with a window, what lies between nodes with all their neighbours
+/// inside it is the same to the bit as of the whole slice, and is the window of the result; the
+/// rest is 0 or means nothing. Uses all cores; the result does not depend on their number.
 SkySlice refined(const SkySlice& slice, Refinement by = {});
 
 }  // namespace skylapse::sky::bruneton

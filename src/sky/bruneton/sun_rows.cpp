@@ -51,6 +51,13 @@ SunWarp sun_warp(const atmosphere::Medium& medium) {
   return warp;
 }
 
+SunNodes sun_nodes(const atmosphere::Medium& medium, const Settings& settings) {
+  const int last = settings.warp_suns() - 1;
+  const bool whole_end = settings.first_sun + settings.suns - 1 == last;
+  const SunWarp warp = sun_warp(medium);
+  return {warp, double(settings.first_sun) / last, 1.0 / last, warp.dark_end && whole_end};
+}
+
 void upsample_suns(const double* nodes, size_t node_stride, double* rows, size_t row_stride,
                    int channels, const Settings& settings, bool dark_end) {
   const int last = settings.suns - 1, per = settings.sun_rows_per_interval;

@@ -34,6 +34,18 @@ double scattering_top_km(const atmosphere::Medium& medium);
 /// about half of acos(R / (R + h)) below the horizon, h being scattering_top_km.
 SunWarp sun_warp(const atmosphere::Medium& medium);
 
+/// The nodes and rows of tables with given settings, which may be a part of all.
+struct SunNodes {
+  SunWarp warp;
+  double first_share, share_step;  // of the warp: at node 0, and from node to node
+  bool dark_end;                   // the last node is the warp's own and has no light
+
+  [[nodiscard]] double zenith_rad(int node) const {
+    return warp.zenith_at(first_share + node * share_step);
+  }
+};
+SunNodes sun_nodes(const atmosphere::Medium& medium, const Settings& settings);
+
 /// Slope at a node by its neighbouring secants: (2 geometric mean + harmonic mean) / 3, at most 3
 /// times the smaller (no overshoot: Fritsch and Carlson 1980), 0 at an extremum. Light in twilight
 /// and in thick air falls exponentially: for exp(-a x) this mean is the true slope up to a^5, where

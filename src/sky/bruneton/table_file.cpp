@@ -114,7 +114,7 @@ std::vector<float> node_rows(const std::vector<float>& from, Slabs slabs,
 /// All rows from those at the nodes.
 std::vector<float> all_rows(const std::vector<float>& nodes, Slabs slabs, const Tables& tables) {
   const Settings& settings = tables.settings;
-  const bool dark_end = sun_warp(tables.medium).dark_end;
+  const bool dark_end = sun_nodes(tables.medium, settings).dark_end;
   const size_t suns = size_of(settings.suns), count = size_of(settings.sun_rows());
   const size_t width = slabs.width;
   std::vector<float> rows(slabs.count * count * width);

@@ -93,32 +93,36 @@ SkySlice Twin::slice(Length camera_height, Angle sun_zenith, const SliceGrid& gr
   const bool multiple = march.multiple_scattering && !tables_->source.empty();
   const std::vector<SliceRow> rows = slice_rows(*columns_, camera_height.in(km), grid);
   const double mu_s = cos(sun_zenith);
-  SkySlice slice{grid, medium().aerosol_g, sun_zenith.in(rad), {}, {}};
-  slice.smooth.resize(size_t(grid.azimuths) * grid.zeniths, glm::vec4(0));
-  slice.aerosol = slice.smooth;
-  parallel_for_ranges(rows.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t j = begin; j < end; ++j)
-      for (int i = 0; i < grid.azimuths; ++i) {
-        glm::dvec3 smooth(0), aerosol(0);
-        for_groups(data, [&](auto& text, int first) {
-          const double nu =
-              text.cosine_to_sun(rows[j].mu, mu_s, text.slice_azimuth(i, grid.azimuths));
-          const text::SunOfRay at = text.sun_of_ray(rows[j].ray, mu_s, nu);
-          const auto light = text.march(rows[j].ray, at, multiple);
-          for (int g = 0; g < text.GROUPS; ++g) {
-            glm::dvec4 sum = light.rayleigh[g] * text.rayleigh_phase(nu) + light.multiple[g];
-            if (march.ground) sum += text.ground_through_air(g, rows[j].ray, at, light);
-            for (int c = 0; c < 4; ++c) {
-              const size_t band = size_t(4) * (first + g) + c;
-              if (band >= medium().bands.size()) break;
-              smooth += sum[c] * medium().bands[band].xyz_weight;
-              aerosol += light.aerosol[g][c] * medium().bands[band].xyz_weight;
-            }
-          }
-        });
-        slice.smooth[j * grid.azimuths + i] = glm::vec4(glm::vec3(smooth), 0);
-        slice.aerosol[j * grid.azimuths + i] = glm::vec4(glm::vec3(aerosol), 0);
+  const SliceWindow window = march.window.value_or(whole_window(grid));
+  SkySlice slice = dark_slice(medium(), sun_zenith, grid, march.window);
+  const auto node = [&](const SliceRow& row, int column, glm::vec4& to_smooth,
+                        glm::vec4& to_aerosol) {
+    glm::dvec3 smooth(0), aerosol(0);
+    const bool scatters = march.aerial_perspective || row.ray.hits_ground < 0.5;
+    for_groups(data, [&](auto& text, int first) {
+      const double nu = text.cosine_to_sun(row.mu, mu_s, text.slice_azimuth(column, grid.azimuths));
+      const text::SunOfRay at = text.sun_of_ray(row.ray, mu_s, nu);
+      const auto light = scatters ? text.march(row.ray, at, multiple) : text.dark_ray();
+      for (int g = 0; g < text.GROUPS; ++g) {
+        glm::dvec4 sum = light.rayleigh[g] * text.rayleigh_phase(nu) + light.multiple[g];
+        if (march.ground) sum += text.ground_through_air(g, row.ray, at, light);
+        for (int c = 0; c < 4; ++c) {
+          const size_t band = size_t(4) * (first + g) + c;
+          if (band >= medium().bands.size()) break;
+          smooth += sum[c] * medium().bands[band].xyz_weight;
+          aerosol += light.aerosol[g][c] * medium().bands[band].xyz_weight;
+        }
       }
+    });
+    to_smooth = glm::vec4(glm::vec3(smooth), 0);
+    to_aerosol = glm::vec4(glm::vec3(aerosol), 0);
+  };
+  parallel_for_ranges(rows.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t j = begin; j < end; ++j) {
+      if (!window.has_row(grid, int(j))) continue;
+      for (int i = window.azimuths.begin; i < window.azimuths.end; ++i)
+        node(rows[j], i, slice.smooth[j * grid.azimuths + i], slice.aerosol[j * grid.azimuths + i]);
+    }
   });
   return slice;
 }

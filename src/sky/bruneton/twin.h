@@ -3,6 +3,7 @@
 // few directions are asked for, and knows the transmittance that the sun's disc needs.
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 
 #include "sky/atmosphere/medium.h"
 #include "sky/bruneton/query.h"
@@ -16,6 +17,9 @@ struct MarchSettings {
   int samples = 16;  // Gauss nodes of each piece of a view ray
   bool multiple_scattering = true;
   bool ground = false;  // add what the ground at the end of the ray reflects
+  /// Slices alone; as SliceContent.
+  bool aerial_perspective = true;
+  std::optional<SliceWindow> window{};
 };
 
 /// A medium with its table of optical columns: Rayleigh, aerosol and ozone from any height in any
