@@ -63,7 +63,15 @@ Wording wording_of(const std::string& reason) {
 }
 
 std::string bound_text(const std::optional<double>& bound) {
-  return bound ? fmt::format("; error bound {:g}", *bound) : "; error not bounded";
+  return bound ? fmt::format("; error bound {:.2g}", *bound) : "; error not bounded";
+}
+
+/// What an effect spends, or what is saved without it at which error.
+std::string cost_text(bool off, double core_seconds, const std::optional<double>& bound) {
+  const std::string cost =
+      core_seconds > 0 ? fmt::format("; {} {:.2g} core s", off ? "saves" : "costs", core_seconds)
+                       : "";
+  return off ? bound_text(bound) + cost : cost;
 }
 
 /// The tables of a computed atmosphere, or nothing.
@@ -85,14 +93,19 @@ std::string effect_summary(const PlannedWork& work) {
     long frames = 0;
     double low = 0, high = 0;
     int decimals = -1;
+    std::optional<double> bound;  // the greatest
+    double core_seconds = 0;      // of all frames
   };
-  // Effect, off, reason before and after its number, known bound of the error.
-  using Key = std::tuple<plan::Effect, bool, std::string, std::string, std::optional<double>>;
+  // Effect, off, reason before and after its number, whether the error is bounded.
+  using Key = std::tuple<plan::Effect, bool, std::string, std::string, bool>;
   std::map<Key, Kind> kinds;
   for (const long number : work.frames)
     for (const auto& d : plan::decide_effects(work.plan, work.plan.frames[number - 1])) {
       const Wording wording = wording_of(d.reason);
-      Kind& kind = kinds[{d.effect, !d.on, wording.before, wording.after, d.error_bound}];
+      Kind& kind =
+          kinds[{d.effect, !d.on, wording.before, wording.after, d.error_bound.has_value()}];
+      if (d.error_bound) kind.bound = std::max(kind.bound.value_or(0), *d.error_bound);
+      kind.core_seconds += d.core_seconds;
       kind.low = kind.frames == 0 ? wording.number : std::min(kind.low, wording.number);
       kind.high = kind.frames == 0 ? wording.number : std::max(kind.high, wording.number);
       kind.decimals = std::max(kind.decimals, wording.decimals);
@@ -106,9 +119,10 @@ std::string effect_summary(const PlannedWork& work) {
       range = fmt::format("{:.{}f}", kind.low, decimals);
       if (kind.high > kind.low) range += fmt::format(" to {:.{}f}", kind.high, decimals);
     }
-    text += fmt::format("  {:<22} {:<3} in {:>4} frames: {}{}{}{}\n", name_of(std::get<0>(key)),
-                        std::get<1>(key) ? "off" : "on", kind.frames, std::get<2>(key), range,
-                        std::get<3>(key), std::get<1>(key) ? bound_text(std::get<4>(key)) : "");
+    text +=
+        fmt::format("  {:<22} {:<3} in {:>4} frames: {}{}{}{}\n", name_of(std::get<0>(key)),
+                    std::get<1>(key) ? "off" : "on", kind.frames, std::get<2>(key), range,
+                    std::get<3>(key), cost_text(std::get<1>(key), kind.core_seconds, kind.bound));
   }
   return text;
 }
@@ -173,7 +187,10 @@ ordered_json plan_json(const PlannedWork& work) {
     const plan::Frame& frame = plan.frames[number - 1];
     auto effects = ordered_json::array();
     for (const auto& d : plan::decide_effects(plan, frame)) {
-      ordered_json effect{{"effect", name_of(d.effect)}, {"on", d.on}, {"reason", d.reason}};
+      ordered_json effect{{"effect", name_of(d.effect)},
+                          {"on", d.on},
+                          {"reason", d.reason},
+                          {"core_seconds", d.core_seconds}};
       if (!d.on) effect["error_bound"] = d.error_bound ? ordered_json(*d.error_bound) : nullptr;
       effects.push_back(effect);
     }

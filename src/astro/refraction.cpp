@@ -44,6 +44,12 @@ Angle refraction(Angle true_elevation, const RefractionConditions& conditions) {
   return standard * (pressure_hpa / 1010) * (283 / (273 + temperature_c)) * arcmin;
 }
 
+double flattening(Angle true_elevation, Angle radius, const RefractionConditions& conditions) {
+  const Angle upper = refraction(true_elevation + radius, conditions);
+  const Angle lower = refraction(true_elevation - radius, conditions);
+  return std::min(1.0, 1 + (upper - lower) / (2 * radius));
+}
+
 Direction<Enu> lift_by_refraction(const Direction<Enu>& direction,
                                   const RefractionConditions& conditions) {
   const Angle lift = refraction(elevation(direction), conditions);

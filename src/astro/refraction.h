@@ -24,4 +24,10 @@ Angle refraction(Angle true_elevation, const RefractionConditions& conditions);
 Direction<Enu> lift_by_refraction(const Direction<Enu>& direction,
                                   const RefractionConditions& conditions);
 
+/// Height over width of a disc of that radius about a centre at a true elevation: refraction lifts
+/// its lower limb more than its upper. 1 where there is none, about 0.83 on the horizon at 10 degC
+/// and 1010 hPa. Positive, and at most 1: where refraction fades out below -1 deg, which is no
+/// physics, it would stretch the disc.
+double flattening(Angle true_elevation, Angle radius, const RefractionConditions& conditions);
+
 }  // namespace skylapse::astro

@@ -129,6 +129,13 @@ AirDescription constant_air(const config::JobConfig& job, const Frame& frame) {
   return air;
 }
 
+/// Without what the plan leaves out.
+AirDescription taken(const AirTimeline& timeline, AirDescription air) {
+  if (!timeline.ozone) air.ozone_du = 0;
+  if (!timeline.aerosol) air.aerosol_optical_depth = air.stratospheric_optical_depth = 0;
+  return air;
+}
+
 AirDescription air_in_state(const config::JobConfig& job, const Frame& frame,
                             const AirState& state) {
   AirDescription air = constant_air(job, frame);
@@ -159,9 +166,9 @@ Result<AirTimeline, Diagnostics> make_air_timeline(const config::JobConfig& job)
 
 AirDescription air_of_frame(const config::JobConfig& job, const AirTimeline& timeline,
                             const Frame& frame) {
-  if (!changes(timeline, frame)) return constant_air(job, frame);
+  if (!changes(timeline, frame)) return taken(timeline, constant_air(job, frame));
   const Span span = span_of_frame(timeline.sites[frame.site], frame.instant);
-  return air_in_state(job, frame, state_at(span, span.fraction));
+  return taken(timeline, air_in_state(job, frame, state_at(span, span.fraction)));
 }
 
 Result<Medium> medium_of_frame(const config::JobConfig& job, const AirTimeline& timeline,
@@ -177,9 +184,9 @@ Result<TableMedia> tables_of_frame(const config::JobConfig& job, const AirTimeli
     return TableMedia{*medium, *medium, 0};
   }
   const Bracket bracket = bracket_of(span_of_frame(timeline.sites[frame.site], frame.instant));
-  const auto a = medium_of(job, air_in_state(job, frame, bracket.a));
+  const auto a = medium_of(job, taken(timeline, air_in_state(job, frame, bracket.a)));
   if (!a) return a.error();
-  const auto b = medium_of(job, air_in_state(job, frame, bracket.b));
+  const auto b = medium_of(job, taken(timeline, air_in_state(job, frame, bracket.b)));
   if (!b) return b.error();
   return TableMedia{*a, *b, bracket.weight};
 }

@@ -17,6 +17,8 @@ struct AirTimeline {
     config::AirState state;
   };
   std::vector<std::vector<Node>> sites;
+  /// What of the air is taken (plan/effect_planner); left out, it is not there.
+  bool ozone = true, aerosol = true;
 };
 
 /// Resolves the keyframes as make_schedule resolves the times of frames: the same errors, with the

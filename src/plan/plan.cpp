@@ -6,8 +6,11 @@
 #include <map>
 #include <unordered_map>
 
+#include "astro/refraction.h"
 #include "config/path_template.h"
 #include "config/time_expression.h"
+#include "plan/effect_planner.h"
+#include "plan/effects/calibrated_bounds.h"
 #include "plan/exposure_plan.h"
 #include "plan/path_template.h"
 #include "plan/sky_of_frame.h"
@@ -104,9 +107,27 @@ std::vector<astro::SkyState> choose_model_and_suns(Plan& plan, const Schedule& s
   return skies;
 }
 
+bool is_on(const Plan& plan, const Frame& frame, Effect effect) {
+  const auto decision = decide_effect(plan, frame, effect);
+  return decision && decision->on;
+}
+
+/// Leaves out refraction where it is not called for, and says how flat it would make the disc.
+void refract(const Plan& plan, Frame& frame) {
+  if (!is_on(plan, frame, Effect::refraction)) {
+    frame.sky.sun_apparent = frame.sky.sun_true;
+    frame.sky.moon_apparent = frame.sky.moon_true;
+    return;
+  }
+  frame.sun_flattening =
+      astro::flattening(elevation(frame.sky.sun_true), frame.sky.sun_radius,
+                        refraction_at(plan.job, plan.job.sites[frame.site], plan.model));
+}
+
 /// What the model is asked for: `sky_at_horizon` is used by Hosek-Wilkie only.
 void ask_model(const Plan& plan, Illuminance sky_at_horizon, Frame& frame) {
   const config::JobConfig& job = plan.job;
+  refract(plan, frame);
   if (is_fitted(plan.model)) {
     frame.sun = sun_for_sky(frame.sky, job.air.refraction, sky_at_horizon);
     return;
@@ -150,6 +171,24 @@ Status add_frames(Plan& plan, const Schedule& schedule, const std::vector<astro:
   return Done{};
 }
 
+/// What decisions need of the cameras.
+void look_through_cameras(Plan& plan) {
+  for (const config::CameraConfig& camera : plan.job.cameras) {
+    plan.views.push_back(view_reach(camera.camera));
+    plan.pixels.push_back(pixel_sides(camera.camera));
+  }
+}
+
+/// Decisions that shape the media of all frames, once sun and air are known.
+void decide_for_the_job(Plan& plan) {
+  plan.reach = reach_of(plan);
+  if (is_fitted(plan.model) || plan.frames.empty()) return;
+  const Frame& any = plan.frames.front();
+  plan.air.ozone = is_on(plan, any, Effect::ozone);
+  plan.air.aerosol = is_on(plan, any, Effect::aerosol);
+  if (is_on(plan, any, Effect::full_spectrum)) plan.job.sky.wavelengths = kFullSpectrum;
+}
+
 /// Sites below the ground of a computed atmosphere are seen from it: said, not done in silence.
 void note_low_sites(Plan& plan) {
   if (is_fitted(plan.model)) return;
@@ -162,7 +201,7 @@ void note_low_sites(Plan& plan) {
 
 }  // namespace
 
-Result<Plan, Diagnostics> make_plan(config::JobConfig job) {
+Result<Plan, Diagnostics> make_plan(config::JobConfig job, const EffectRules& rules) {
   auto schedule = make_schedule(job);
   if (!schedule) return schedule.error();
   const size_t combinations =
@@ -173,7 +212,9 @@ Result<Plan, Diagnostics> make_plan(config::JobConfig job) {
          fmt::format("this job has {} frames", schedule->times.size() * combinations),
          job.time.span, fmt::format("allowed: at most {}", config::kMaxJobFrames)}};
   Plan plan;
+  plan.rules = &rules;
   plan.job = std::move(job);
+  look_through_cameras(plan);
   plan.notes = std::move(schedule->notes);
   auto air = make_air_timeline(plan.job);
   if (!air) return air.error();
@@ -182,6 +223,7 @@ Result<Plan, Diagnostics> make_plan(config::JobConfig job) {
   note_low_sites(plan);
   const Status added = add_frames(plan, *schedule, skies);
   if (!added) return Diagnostics{added.error()};
+  decide_for_the_job(plan);
   for (size_t o = 0; o < plan.job.outputs.size(); ++o) number_paths(plan, o);
   if (auto collision = find_collision(plan)) return Diagnostics{*collision};
   const Status exposed = plan_exposure(plan);

@@ -7,6 +7,8 @@
 #include "astro/sky_state.h"
 #include "config/job_config.h"
 #include "plan/atmosphere_of_frame.h"
+#include "plan/effects/reach.h"
+#include "plan/effects/rule.h"
 #include "plan/frame_schedule.h"
 #include "plan/sky_model.h"
 #include "plan/sun_for_sky.h"
@@ -21,10 +23,12 @@ struct Frame {
   astro::Instant instant;
   astro::LocalTime local;
   astro::SkyState sky;
-  SunForSky sun;                   // what the sky model is asked for
-  Length camera_height;            // above the ground of a computed atmosphere; else 0
-  Angle horizon;                   // elevation of the camera's horizon, at most 0
-  double ev = 0;                   // EV100
+  SunForSky sun;         // what the sky model is asked for
+  Length camera_height;  // above the ground of a computed atmosphere; else 0
+  Angle horizon;         // elevation of the camera's horizon, at most 0
+  double ev = 0;         // EV100
+  /// Height of the sun's disc over its width, as refraction would have it; 1 without.
+  double sun_flattening = 1;
   std::vector<std::string> paths;  // one for each output of the job; {face} still to be filled
 };
 
@@ -35,10 +39,17 @@ struct Plan {
   config::SkyModel model = config::SkyModel::hosek_wilkie;  // of all frames; never `automatic`
   std::string model_reason;                                 // why that one
   AirTimeline air;                                          // the air's keyframes in time
+  // What decisions on effects rest on (effect_planner.h).
+  const EffectRules* rules = &standard_rules();
+  std::vector<ViewReach> views;    // of each camera
+  std::vector<PixelSides> pixels;  // of each camera
+  Reach reach;
 };
 
 /// Errors carry the spans of the config: unresolvable times, two frames writing one file.
-Result<Plan, Diagnostics> make_plan(config::JobConfig job);
+/// `rules` decide on effects and must outlive the plan; other ones than the standard are for tests.
+Result<Plan, Diagnostics> make_plan(config::JobConfig job,
+                                    const EffectRules& rules = standard_rules());
 
 /// Paths of the files that one output of a frame writes: one, or six for separate cube faces.
 std::vector<std::string> files_of(const Plan& plan, const Frame& frame, size_t output);

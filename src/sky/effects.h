@@ -2,6 +2,7 @@
 // What a picture of the sky may contain or leave out. Each is taken where the scene calls for it
 // and left, with a bound on the error, where it does not (plan/effect_planner).
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,5 +47,19 @@ inline std::string name_of(Effect effect) {
     if (value == effect) return std::string(name);
   return "";
 }
+
+/// Which effects a picture has.
+class EffectSet {
+ public:
+  [[nodiscard]] bool has(Effect effect) const { return (bits_ >> int(effect) & 1U) != 0; }
+  void set(Effect effect, bool on = true) {
+    const uint32_t bit = 1U << int(effect);
+    bits_ = on ? bits_ | bit : bits_ & ~bit;
+  }
+  friend bool operator==(EffectSet, EffectSet) = default;
+
+ private:
+  uint32_t bits_ = 0;
+};
 
 }  // namespace skylapse::sky

@@ -1,0 +1,15 @@
+#pragma once
+// Errors that no formula bounds, as measured over hard scenes; the commands that measure them are
+// in docs/effects.md.
+namespace skylapse::plan {
+
+/// Wavelengths that count as all of them.
+inline constexpr int kFullSpectrum = 32;
+/// Error of a pixel by 16 wavelengths instead of 32.
+inline constexpr double kSpectrumError = 5e-3;
+/// An order that adds less than this to the sources is the last that `further-orders` computes.
+inline constexpr double kFurtherOrdersStop = 1e-3;
+/// Error of a pixel by the geometric tail in place of those orders.
+inline constexpr double kTailError = 5e-3;
+
+}  // namespace skylapse::plan
