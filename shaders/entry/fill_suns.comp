@@ -1,13 +1,14 @@
 // Rows of the source texture between the sun nodes: cubic Hermite with limited slopes
 // (src/sky/bruneton/sun_rows.h). Item [height][zenith][interval][azimuth].
 layout(local_size_x = 32) in;
+#include "shared/sun_nodes.glsl"
 
 layout(std430, binding = 0) readonly buffer SourceBlock { vec4 source[]; };  // [group][height][zenith][sun][azimuth]
 layout(binding = 0, rgba32f) uniform writeonly image3D table;
 layout(std140, binding = 3) uniform GroupBlock { int group; };
 
-const int INTERVALS = SUNS - 1;
-const int ITEMS = HEIGHTS * TABLE_ZENITHS * INTERVALS * TABLE_AZIMUTHS;
+int intervals() { return sun_nodes - 1; }
+int items() { return HEIGHTS * TABLE_ZENITHS * intervals() * TABLE_AZIMUTHS; }
 
 // As limited_slope of sun_rows.h, with the products of two small secants kept above float's least.
 vec4 limited_slope(vec4 before, vec4 after) {
@@ -30,19 +31,19 @@ void put(int azimuth, int row, int slab, vec4 value) {
 
 void main() {
   int item = int(gl_GlobalInvocationID.x);
-  if (item >= ITEMS) return;
+  if (item >= items()) return;
   int azimuth = item % TABLE_AZIMUTHS;
-  int interval = (item / TABLE_AZIMUTHS) % INTERVALS;
-  int slab = item / (TABLE_AZIMUTHS * INTERVALS);
-  int base = (group * HEIGHTS * TABLE_ZENITHS + slab) * SUNS * TABLE_AZIMUTHS + azimuth;
+  int interval = (item / TABLE_AZIMUTHS) % intervals();
+  int slab = item / (TABLE_AZIMUTHS * intervals());
+  int base = (group * HEIGHTS * TABLE_ZENITHS + slab) * sun_nodes * TABLE_AZIMUTHS + azimuth;
   vec4 here = source[base + interval * TABLE_AZIMUTHS];
   vec4 next = source[base + (interval + 1) * TABLE_AZIMUTHS];
   vec4 secant = next - here;
   vec4 slope_here = secant;
-  vec4 slope_next = DARK_END == 1 ? vec4(0.0) : secant;
+  vec4 slope_next = dark_end == 1 ? vec4(0.0) : secant;
   if (interval > 0)
     slope_here = limited_slope(here - source[base + (interval - 1) * TABLE_AZIMUTHS], secant);
-  if (interval + 2 < SUNS)
+  if (interval + 2 < sun_nodes)
     slope_next = limited_slope(secant, source[base + (interval + 2) * TABLE_AZIMUTHS] - next);
   for (int k = 0; k < ROWS_PER_INTERVAL; ++k) {
     float t = float(k) / float(ROWS_PER_INTERVAL);
@@ -51,6 +52,6 @@ void main() {
                  t * u * u * slope_here - t * t * u * slope_next;
     put(azimuth, interval * ROWS_PER_INTERVAL + k, slab, value);
   }
-  if (interval == INTERVALS - 1)
-    put(azimuth, INTERVALS * ROWS_PER_INTERVAL, slab, next);
+  if (interval == intervals() - 1)
+    put(azimuth, intervals() * ROWS_PER_INTERVAL, slab, next);
 }

@@ -10,7 +10,7 @@ layout(std430, binding = 7) readonly buffer AerosolBlock { vec4 aerosol_weight[]
 
 void main() {
   int item = int(gl_GlobalInvocationID.x);
-  int items = rays.length() * SUNS * AZIMUTHS;
+  int items = rays.length() * sun_nodes * AZIMUTHS;
   if (item >= items) return;
   Incidence at = incidence_of(item);
   ListRay ray = rays[at.ray];

@@ -8,12 +8,12 @@ layout(std430, binding = 1) readonly buffer FactorBlock { float factors[]; };  /
 layout(std430, binding = 2) readonly buffer MomentBlock { vec4 moments[]; };  // [group][height][l]
 layout(std430, binding = 3) writeonly buffer CoefficientBlock { vec4 coefficients[]; };  // [group][height][harmonic][sun]
 
-const int ITEMS = HEIGHTS * ORDERS * SUNS;
+int items() { return HEIGHTS * ORDERS * sun_nodes; }
 
 int terms(int item) { return ROWS; }
 int outputs(int item) { return ORDERS - m_of(item); }
 vec4 load(int group, int item, int k) {
-  return waves[((group * HEIGHTS * ORDERS + item / SUNS) * ROWS + k) * SUNS + sun_of(item)];
+  return waves[((group * HEIGHTS * ORDERS + item / sun_nodes) * ROWS + k) * sun_nodes + sun_of(item)];
 }
 float factor(int item, int k, int j) {
   int harmonic = min(first_harmonic(m_of(item)) + j, HARMONICS - 1);
@@ -22,7 +22,7 @@ float factor(int item, int k, int j) {
 void store(int group, int item, int j, vec4 value) {
   int point = group * HEIGHTS + height_of(item);
   int m = m_of(item);
-  coefficients[(point * HARMONICS + first_harmonic(m) + j) * SUNS + sun_of(item)] =
+  coefficients[(point * HARMONICS + first_harmonic(m) + j) * sun_nodes + sun_of(item)] =
       value * moments[point * ORDERS + m + j];
 }
 

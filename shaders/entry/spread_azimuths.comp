@@ -7,20 +7,20 @@ layout(std430, binding = 1) readonly buffer CosineBlock { float cosines[]; };  /
 layout(std430, binding = 2) writeonly buffer SourceBlock { vec4 source[]; };  // [group][height][zenith][sun][azimuth]
 layout(std430, binding = 3) buffer TotalBlock { vec4 total[]; };  // likewise, summed over the orders
 
-const int ITEMS = HEIGHTS * TABLE_ZENITHS * SUNS;
+int items() { return HEIGHTS * TABLE_ZENITHS * sun_nodes; }
 
 int terms(int item) { return ORDERS; }
 int outputs(int item) { return TABLE_AZIMUTHS; }
 vec4 load(int group, int item, int k) {
-  int height = item / (TABLE_ZENITHS * SUNS);
-  return waves[((group * HEIGHTS + height) * ORDERS + k) * TABLE_ZENITHS * SUNS +
-               item % (TABLE_ZENITHS * SUNS)];
+  int height = item / (TABLE_ZENITHS * sun_nodes);
+  return waves[((group * HEIGHTS + height) * ORDERS + k) * TABLE_ZENITHS * sun_nodes +
+               item % (TABLE_ZENITHS * sun_nodes)];
 }
 float factor(int item, int k, int j) { return cosines[k * TABLE_AZIMUTHS + min(j, TABLE_AZIMUTHS - 1)]; }
 void store(int group, int item, int j, vec4 value) {
-  int i = (group * ITEMS + item) * TABLE_AZIMUTHS + j;
+  int i = (group * items() + item) * TABLE_AZIMUTHS + j;
   // The cut series rings below 0; past the last sun node there is no light.
-  vec4 light = DARK_END == 1 && item % SUNS == SUNS - 1 ? vec4(0.0) : max(value, vec4(0.0));
+  vec4 light = dark_end == 1 && item % sun_nodes == sun_nodes - 1 ? vec4(0.0) : max(value, vec4(0.0));
   source[i] = light;
   total[i] += light;
 }

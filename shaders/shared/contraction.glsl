@@ -1,6 +1,6 @@
 #pragma once
 // Small matrix products, one item times a matrix each: output_j = sum over k of input_k * M_kj.
-// The entry defines ITEMS, the host BLOCK, and the entry before including this
+// The entry defines items(), the host BLOCK, and the entry before including this
 //   int terms(int item); int outputs(int item);
 //   vec4 load(int group, int item, int k);
 //   float factor(int item, int k, int j);  any finite value for j >= outputs
@@ -11,7 +11,7 @@ void main() {
   int item = int(gl_GlobalInvocationID.x);
   int first = int(gl_WorkGroupID.y) * BLOCK;
   int group = int(gl_WorkGroupID.z);
-  if (item >= ITEMS || first >= outputs(item)) return;
+  if (item >= items() || first >= outputs(item)) return;
   vec4 sums[BLOCK];
   for (int j = 0; j < BLOCK; ++j) sums[j] = vec4(0.0);
   int count = terms(item);

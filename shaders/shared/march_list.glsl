@@ -2,6 +2,7 @@
 // The rays from the points of the tables, sampled by the host (src/sky/bruneton/march_buffers.h).
 
 #include "shared/list_sample.glsl"
+#include "shared/sun_nodes.glsl"
 
 struct ListRay {
   int first, count;  // samples
@@ -34,5 +35,5 @@ Incidence incidence_of(int item) {
   float mu_s = sun_mu[sun];
   float sines = sqrt(max((1.0 - mu * mu) * (1.0 - mu_s * mu_s), 0.0));
   float nu = mu * mu_s + sines * cos(PI * (float(azimuth) + 0.5) / float(AZIMUTHS));
-  return Incidence(ray, mu_s, nu, (ray * SUNS + sun) * AZIMUTHS + azimuth);
+  return Incidence(ray, mu_s, nu, (ray * sun_nodes + sun) * AZIMUTHS + azimuth);
 }

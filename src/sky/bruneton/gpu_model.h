@@ -1,6 +1,5 @@
 #pragma once
 // The atmosphere on a GL context: precomputation, slices and single directions in float.
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -9,12 +8,9 @@
 #include "sky/bruneton/query.h"
 #include "sky/bruneton/sky_slice.h"
 #include "sky/bruneton/tables.h"
+#include "sky/bruneton/twin.h"
 
 namespace skylapse::sky::bruneton {
-
-/// Told the share of the work that is done, 0..1, from the thread that computes; answers whether to
-/// go on.
-using Progress = std::function<bool(double)>;
 
 /// The tables by compute shaders. Deterministic for one driver. Error interrupted where `progress`
 /// says no.

@@ -70,6 +70,7 @@ class Passes {
     next_ = MarchBuffers::create(gl_, host_.next, size_, range_, false);
     harmonics_ = HarmonicBuffers::create(gl_, medium_, host_.next.rows, size_, range_);
     suns_ = gpu::Buffer::of(gl_, host_.sun_mu);
+    sun_nodes_ = gpu::Buffer::of(gl_, std::vector<int>{size_.suns, host_.suns.dark_end, 0, 0});
     for (int g = 0; g < range_.count; ++g) {
       auto texture = gpu::Texture::create(gl_, source_size(size_, fold_), nullptr);
       if (!texture) return texture.error();
@@ -89,6 +90,7 @@ class Passes {
   }
 
   void first_order() const {
+    sun_nodes_.bind_uniform(gl_, 5);  // for all passes
     physics_.bind(gl_, table_);
     first_.bind(gl_);
     march(first_order_);
@@ -184,15 +186,13 @@ class Passes {
     std::vector<gpu::Define> defines = physics_defines(
         range_.count, fold_, filter_of(gl_.context->info()), host_.data.air.layer_count > 0);
     const std::vector<gpu::Define> sizes{{"HEIGHTS", size_.heights},
-                                         {"SUNS", size_.suns},
                                          {"ROWS", rows()},
                                          {"UP_ROWS", size_.directions_up},
                                          {"AZIMUTHS", size_.azimuths},
                                          {"DEGREE", size_.harmonics},
                                          {"TABLE_AZIMUTHS", size_.table_azimuths},
                                          {"TABLE_ZENITHS", size_.table_zeniths},
-                                         {"ROWS_PER_INTERVAL", size_.sun_rows_per_interval},
-                                         {"DARK_END", host_.suns.dark_end ? 1 : 0}};
+                                         {"ROWS_PER_INTERVAL", size_.sun_rows_per_interval}};
     defines.insert(defines.end(), sizes.begin(), sizes.end());
     const int orders = size_.harmonics + 1;
     const struct {
@@ -249,7 +249,7 @@ class Passes {
   PhysicsBuffers physics_;
   MarchBuffers first_, next_;
   HarmonicBuffers harmonics_;
-  gpu::Buffer suns_, light_, waves_, coefficients_, source_, total_, sums_, irradiance_;
+  gpu::Buffer suns_, sun_nodes_, light_, waves_, coefficients_, source_, total_, sums_, irradiance_;
   std::vector<gpu::Buffer> group_index_;
   std::vector<gpu::Texture> table_;
 };

@@ -6,6 +6,16 @@
 
 namespace skylapse::sky::bruneton {
 
+SliceGrid irradiance_grid(const atmosphere::Medium& medium, Length height) {
+  return slice_grid(medium, height, 24, 64);
+}
+
+SliceWindow irradiance_window(const SliceGrid& grid) {
+  SliceWindow window = whole_window(grid);
+  window.ground = {};
+  return window;
+}
+
 glm::dvec3 horizontal_irradiance_xyz(const SkySlice& slice) {
   constexpr double kPi = std::numbers::pi, kNode = 0.5773502691896258;  // 1 / sqrt(3)
   // Steps of two Gauss nodes each, in s (over the horizon by span s^2) and in x (azimuth pi x^1.5):

@@ -11,4 +11,9 @@ namespace skylapse::sky::bruneton {
 /// SkySlice::radiance_xyz (tested).
 glm::dvec3 horizontal_irradiance_xyz(const SkySlice& slice);
 
+/// A small slice that is enough for it, whatever the frame's own is and however little of it is
+/// computed: the sky half alone.
+SliceGrid irradiance_grid(const atmosphere::Medium& medium, Length height);
+SliceWindow irradiance_window(const SliceGrid& grid);
+
 }  // namespace skylapse::sky::bruneton

@@ -1,10 +1,12 @@
 #pragma once
 // The CPU twin: the same physics in double, complete. It judges the GPU's floats, answers where a
 // few directions are asked for, and knows the transmittance that the sun's disc needs.
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
 
+#include "core/result.h"
 #include "sky/atmosphere/medium.h"
 #include "sky/bruneton/query.h"
 #include "sky/bruneton/sky_slice.h"
@@ -28,8 +30,15 @@ class Columns;
 struct PhysicsData;
 std::shared_ptr<const Columns> make_columns(const atmosphere::Medium& medium);
 
+/// Told the share of the work that is done, 0..1, from the thread that computes; answers whether to
+/// go on.
+using Progress = std::function<bool(double)>;
+
 /// The tables in double on all cores; the stored numbers are rounded to float.
 Tables precompute_twin(const atmosphere::Medium& medium, const Settings& settings);
+/// Error interrupted where `progress` says no.
+Result<Tables> precompute_twin(const atmosphere::Medium& medium, const Settings& settings,
+                               const Progress& progress);
 
 class Twin {
  public:

@@ -75,15 +75,20 @@ std::vector<float> rounded(const std::vector<glm::dvec4>& values) {
 /// Groups whose orders are computed together and stop together.
 constexpr int kGroupsAtOnce = 4;
 
-void compute_groups(const Columns& columns, const Settings& settings, int first, int count,
-                    Tables& tables) {
+/// False if `progress`, told the share of the orders, wants no more.
+bool compute_groups(const Columns& columns, const Settings& settings, int first, int count,
+                    const Progress& progress, Tables& tables) {
   ScatteringOrders orders(columns, settings, first, count);
   IncidentLight incident = orders.first_order();
   Source order = orders.gather(incident);
   std::vector<Total> totals;
   for (int g = 0; g < count; ++g) totals.emplace_back(order[g], incident.ground[g], settings);
+  double share = 0;
   const auto done = [](const Total& total) { return total.tail.done(); };
   while (!std::all_of(totals.begin(), totals.end(), done)) {
+    // The number of orders is known at the end alone: halfway there each time.
+    share += 0.5 * (1 - share);
+    if (!progress(share)) return false;
     incident = orders.march(order, incident);
     order = orders.gather(incident);
     for (int g = 0; g < count; ++g) totals[g].add(order[g], incident.ground[g], settings);
@@ -100,19 +105,31 @@ void compute_groups(const Columns& columns, const Settings& settings, int first,
       tables.tail_ratio[4 * (first + g) + c] = total.tail.ratio()[int(c)];
     }
   }
+  return true;
 }
 
 }  // namespace
 
-Tables precompute_twin(const atmosphere::Medium& medium, const Settings& settings) {
+Result<Tables> precompute_twin(const atmosphere::Medium& medium, const Settings& settings,
+                               const Progress& progress) {
   const std::shared_ptr<const Columns> columns = make_columns(medium);
   Tables tables{medium, settings, {}, {}, 0, {}, {}};
   tables.last_addition.resize(medium.bands.size());
   tables.tail_ratio.resize(medium.bands.size());
-  for (int first = 0; first < tables.groups(); first += kGroupsAtOnce)
-    compute_groups(*columns, settings, first, std::min(kGroupsAtOnce, tables.groups() - first),
-                   tables);
+  for (int first = 0; first < tables.groups(); first += kGroupsAtOnce) {
+    const int count = std::min(kGroupsAtOnce, tables.groups() - first);
+    const auto report = [&](double share) {
+      return !progress || progress((first + share * count) / tables.groups());
+    };
+    if (!compute_groups(*columns, settings, first, count, report, tables))
+      return Error{
+          ErrorCode::interrupted, "the tables of the atmosphere were not finished", {}, {}};
+  }
   return tables;
+}
+
+Tables precompute_twin(const atmosphere::Medium& medium, const Settings& settings) {
+  return *precompute_twin(medium, settings, {});
 }
 
 }  // namespace skylapse::sky::bruneton
