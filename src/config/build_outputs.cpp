@@ -79,6 +79,7 @@ class OutputReader {
     out.view_span = view_span();
     out.sun_policy_span = span_of_first({"sun"});
     read_view(out);
+    read_content(out);
     read_sun(out);
     read_compression(out);
     if (const auto quality = section_.get<long>("quality")) out.quality = int(*quality);
@@ -174,10 +175,24 @@ class OutputReader {
       out.view = section_.get<std::string>("view").value_or("");
   }
 
+  void read_content(ImageOutput& out) {
+    const auto word = section_.get<std::string>("content");
+    if (!word) return;
+    out.content = *value_of(kImageContentWords, *word);
+    if (out.content == ImageContent::radiance) return;
+    if (job_.sky.model != SkyModel::reference)
+      no_meaning("content", "only sky.model reference knows its standard errors");
+    else if (out.view)
+      no_meaning("content",
+                 "standard errors are numbers, not a picture: write exr, hdr or tif "
+                 "with \"type: float\", without view and display");
+  }
+
   void read_sun(ImageOutput& out) {
     const auto word = section_.get<std::string>("sun");
     if (!word) return;
-    if (out.sample_type != SampleType::half_float || out.view)
+    if (out.sample_type != SampleType::half_float || out.view ||
+        out.content != ImageContent::radiance)
       no_meaning("sun", "it belongs to scene-linear exr with \"type: half\"");
     else
       out.sun_policy = *value_of(kSunPolicyWords, *word);

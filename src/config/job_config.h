@@ -184,9 +184,16 @@ struct ColorConfig {
   std::optional<Spanned<std::string>> ocio;  // config file; else $OCIO, else built in
 };
 
+/// What the values of an image are.
+enum class ImageContent {
+  radiance,
+  standard_error,  // of the radiance without the sun's disc, of the model `reference`
+};
+
 struct ImageOutput {
   Spanned<std::string> path;  // template, relative to the output folder
   std::string format;         // "exr", "hdr", "png", "jpg", "tif", by the extension
+  ImageContent content = ImageContent::radiance;
   output::SampleType sample_type = output::SampleType::float32;
   output::SunPolicy sun_policy = output::SunPolicy::clip;  // of formats that cannot hold the disc
   // Display-referred if and only if there is a view; an empty one is the display's default.

@@ -175,6 +175,13 @@ const SectionSpec& image_spec() {
            .kind = K::text,
            .example = "sRGB",
            .doc = "OpenColorIO display. Default: that of the OpenColorIO config."},
+          {.name = "content",
+           .kind = K::word,
+           .words = words_of(kImageContentWords),
+           .default_text = "radiance",
+           .example = "standard-error",
+           .doc = "What the values are: `standard-error` is that of each value of the picture "
+                  "without the sun's disc, which the model `reference` knows."},
           {.name = "sun",
            .kind = K::word,
            .words = words_of(kSunPolicyWords),

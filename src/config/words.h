@@ -79,6 +79,9 @@ inline constexpr Words<output::SampleType, 4> kSampleTypeWords{
      {"half", output::SampleType::half_float},
      {"float", output::SampleType::float32}}};
 
+inline constexpr Words<ImageContent, 2> kImageContentWords{
+    {{"radiance", ImageContent::radiance}, {"standard-error", ImageContent::standard_error}}};
+
 inline constexpr Words<output::SunPolicy, 4> kSunPolicyWords{
     {{"clip", output::SunPolicy::clip},
      {"scale", output::SunPolicy::scale},

@@ -29,23 +29,55 @@ json air_json(const config::JobConfig& job, const plan::Frame& frame) {
           {"temperature", refraction.temperature.in(degC)}};
 }
 
-/// What the model of the plan depends on, and no other.
-json sky_json(const plan::Plan& plan, const plan::Frame& frame) {
+/// What a model depends on, and no other.
+json model_json(const plan::Plan& plan, const plan::Frame& frame) {
+  using enum config::SkyModel;
   const config::Sky& sky = plan.job.sky;
-  json all{{"model", plan::name_of(plan.model)},
-           {"disc", sky.sun_disc},
-           {"sun_algorithm", name_of(sky.sun_algorithm)}};
-  if (plan::is_fitted(plan.model)) {
-    all["fit"] = int(sky.fit);
-    all["flux"] = int(sky.solar_flux);
+  switch (plan.model) {
+    case preetham:
+      return json::object();
+    case cie:
+      return {{"type", sky.cie_type}};
+    case automatic:
+    case hosek_wilkie:
+    case hosek_wilkie_gl:
+      return {{"fit", int(sky.fit)}, {"flux", int(sky.solar_flux)}};
+    case single_scattering:
+    case bruneton:
+    case reference:
+      break;
+  }
+  // A medium that is refused has no text, and no picture either.
+  const auto medium = plan::medium_of_frame(plan.job, plan.air, frame);
+  json all{{"wavelengths", sky.wavelengths},
+           {"orders", sky.orders},
+           {"medium", medium ? canonical_text(*medium) : ""}};
+  if (plan.model == reference) {
+    all["samples"] = sky.paths.samples;
+    all["relative_error"] = sky.paths.relative_error.value_or(0);
+    all["seed"] = sky.paths.seed;
     return all;
   }
   all["level"] = sky::bruneton::name_of(sky.level);
-  all["wavelengths"] = sky.wavelengths;
-  // A medium that is refused has no text, and no picture either.
-  const auto medium = plan::medium_of_frame(plan.job, plan.air, frame);
-  all["medium"] = medium ? canonical_text(*medium) : "";
+  all["steps"] = sky.steps;
+  all["slice"] = {sky.slice_azimuths, sky.slice_zeniths};
+  all["precision"] = int(sky.precision);
   return all;
+}
+
+json effects_json(const config::EffectChoice& effects) {
+  json listed = json::array();
+  for (const sky::Effect effect : effects.listed) listed.push_back(name_of(effect));
+  return {{"rule", int(effects.rule)}, {"listed", listed}};
+}
+
+json sky_json(const plan::Plan& plan, const plan::Frame& frame) {
+  const config::Sky& sky = plan.job.sky;
+  return {{"model", plan::name_of(plan.model)},
+          {"settings", model_json(plan, frame)},
+          {"effects", effects_json(sky.effects)},
+          {"disc", sky.sun_disc},
+          {"sun_algorithm", name_of(sky.sun_algorithm)}};
 }
 
 json camera_json(const config::CameraConfig& config) {
@@ -86,6 +118,7 @@ std::string image_fingerprint(const plan::Plan& plan, const plan::Frame& frame,
   json all = frame_json(plan, frame);
   all["index"] = frame.index;
   all["format"] = output.format;
+  all["content"] = int(output.content);
   all["sample"] = int(output.sample_type);
   all["sun_policy"] = int(output.sun_policy);
   all["quality"] = output.quality;

@@ -123,8 +123,9 @@ Result<Samples> samples_of(const plan::Frame& frame, const RenderedFrame& render
     s.data = reinterpret_cast<const std::byte*>(s.display.data());
     s.bytes_per_row = sizeof(float) * row_samples;
   } else {
-    const image::FrameBuffer* pixels = &rendered.scene;
-    if (output.sample_type == SampleType::half_float) {
+    const bool errors = output.content == config::ImageContent::standard_error && rendered.noise;
+    const image::FrameBuffer* pixels = errors ? &rendered.noise->standard_error : &rendered.scene;
+    if (!errors && output.sample_type == SampleType::half_float) {
       s.linear = rendered.scene;
       const auto record = output::apply_sun_policy(
           s.linear, output.sun_policy,
@@ -144,6 +145,16 @@ std::map<std::string, double> light_record(const RenderedFrame& rendered) {
   return {{"sky_horizontal_lux", lux_of(rendered.sky_irradiance_xyz)},
           {"sun_horizontal_lux", lux_of(rendered.sun_irradiance_xyz)},
           {"sun_normal_lux", lux_of(rendered.sun_normal_irradiance_xyz)}};
+}
+
+std::map<std::string, double> noise_record(const RenderedFrame& rendered) {
+  if (!rendered.noise) return {};
+  const auto& record = rendered.noise->record;
+  return {{"paths", double(record.paths)},
+          {"mean_relative_error", record.mean_relative_error},
+          {"max_relative_error", record.max_relative_error},
+          {"share_of_pixels_reached", record.share_reached},
+          {"sky_horizontal_relative_error", rendered.noise->sky_irradiance_error}};
 }
 
 std::map<std::string, double> encoding_record(const output::FrameMetadata& meta) {
@@ -240,7 +251,8 @@ Result<std::vector<LedgerEntry>> write_image_output(
                        bytes->size(),
                        {},
                        encoding_record(meta),
-                       light_record(rendered)});
+                       light_record(rendered),
+                       noise_record(rendered)});
   }
   return entries;
 }

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "pipeline/reference_sky.h"
 #include "plan/sky_of_frame.h"
 #include "sky/bruneton/slice_image.h"
 #include "sky/hosek_wilkie/sky_image.h"
@@ -60,7 +61,9 @@ Result<FrameSky> atmosphere_sky(const plan::Frame& frame, AtmosphereService& atm
 }  // namespace
 
 Result<FrameSky> sky_of(const plan::Plan& plan, const plan::Frame& frame,
-                        AtmosphereService& atmospheres) {
+                        AtmosphereService& atmospheres,
+                        const std::function<bool(double)>& progress) {
+  if (plan.model == config::SkyModel::reference) return reference_sky(plan, frame, progress);
   if (plan.model == config::SkyModel::hosek_wilkie) return hosek_wilkie_sky(plan, frame, nullptr);
   if (plan.model == config::SkyModel::hosek_wilkie_gl) {
     const auto context = atmospheres.context();

@@ -2,6 +2,7 @@
 // What a picture asks of a sky, whichever model answers.
 #include <functional>
 #include <glm/glm.hpp>
+#include <memory>
 
 #include "image/camera/camera.h"
 #include "image/frame_buffer.h"
@@ -11,17 +12,22 @@
 
 namespace skylapse::pipeline {
 
+struct FrameNoise;
+
 /// Sky, ground and sun of one frame, at the sun's distance.
 struct FrameSky {
   /// Fills an image of the camera's size with all but the disc, in the space of `xyz_to_rgb`.
   std::function<Status(const image::Camera&, const glm::dmat3& xyz_to_rgb, image::FrameBuffer&)>
       fill;
-  glm::dvec3 sky_irradiance_xyz{0};  // horizontal, without the disc
-  sky::SunDisc disc;                 // in XYZ
+  glm::dvec3 sky_irradiance_xyz{0};   // horizontal, without the disc
+  sky::SunDisc disc;                  // in XYZ
+  std::shared_ptr<FrameNoise> noise;  // of a model that draws paths, filled in by `fill`
 };
 
-/// The sky of the plan's model.
+/// The sky of the plan's model. `progress`: of a picture that takes long, told the share that is
+/// done, answers whether to go on; from one thread at a time.
 Result<FrameSky> sky_of(const plan::Plan& plan, const plan::Frame& frame,
-                        AtmosphereService& atmospheres);
+                        AtmosphereService& atmospheres,
+                        const std::function<bool(double)>& progress = {});
 
 }  // namespace skylapse::pipeline

@@ -1,5 +1,7 @@
 #pragma once
 // What all parts of a running job share.
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,10 +23,15 @@ struct JobContext {
   Ledger& ledger;
   AtmosphereService& atmospheres;
   std::string color_config;  // hash
+  std::chrono::steady_clock::time_point start;
+  std::atomic<double>* frames_by_paths;  // finished, parts of frames included; not null
 
   [[nodiscard]] bool stopped() const {
     return options.stop_signal != nullptr && options.stop_signal->load() != 0;
   }
+  /// What a frame that takes long calls with the share that is done: tells how far the job is,
+  /// answers whether to go on.
+  [[nodiscard]] std::function<bool(double)> report_paths() const;
   [[nodiscard]] const plan::Frame& frame(long number) const { return plan.frames[number - 1]; }
   /// Fingerprint of one image output of a frame.
   [[nodiscard]] std::string fingerprint(const plan::Frame& frame, size_t output) const;

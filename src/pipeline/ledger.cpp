@@ -19,10 +19,11 @@ namespace {
 using nlohmann::json;
 
 std::string to_line(const LedgerEntry& entry) {
-  const json line = {{"path", entry.path},     {"fingerprint", entry.fingerprint},
-                     {"sha256", entry.sha256}, {"bytes", entry.bytes},
-                     {"ms", entry.times.ms},   {"encoding", entry.encoding},
-                     {"light", entry.light}};
+  json line = {{"path", entry.path},     {"fingerprint", entry.fingerprint},
+               {"sha256", entry.sha256}, {"bytes", entry.bytes},
+               {"ms", entry.times.ms},   {"encoding", entry.encoding},
+               {"light", entry.light}};
+  if (!entry.noise.empty()) line["noise"] = entry.noise;
   return line.dump() + "\n";
 }
 
@@ -38,6 +39,7 @@ std::optional<LedgerEntry> from_line(const std::string& text) {
     entry.times.ms = line.at("ms");
     entry.encoding = line.at("encoding").get<std::map<std::string, double>>();
     entry.light = line.at("light").get<std::map<std::string, double>>();
+    if (line.contains("noise")) entry.noise = line.at("noise").get<std::map<std::string, double>>();
   } catch (const json::exception&) {
     return {};
   }

@@ -17,8 +17,9 @@ struct LedgerEntry {
   std::string sha256;
   uintmax_t bytes = 0;
   StageTimes times;  // sky and disc of the frame, the rest of the file's own output
-  /// What encoding did to the picture (sun policy), and the light of the frame: for the manifest.
-  std::map<std::string, double> encoding, light;
+  /// What encoding did to the picture (sun policy), the light of the frame, and how sure it is
+  /// where it was drawn at random: for the manifest.
+  std::map<std::string, double> encoding{}, light{}, noise{};
 };
 
 /// Lines of JSON in OUT/.skylapse, one file per writing process, appended in one write each. A torn

@@ -78,6 +78,7 @@ ordered_json outputs_json(const config::JobConfig& job) {
       o = {{"image", image->path.value},
            {"format", image->format},
            {"type", kTypes[size_t(image->sample_type)]}};
+      if (image->content == config::ImageContent::standard_error) o["content"] = "standard-error";
       if (image->sample_type == output::SampleType::half_float)
         o["sun"] = output::sun_policy_name(image->sun_policy);
       if (image->display) o["display"] = *image->display;
@@ -111,7 +112,7 @@ ordered_json exposure_json(double ev) {
 /// The finished files of a frame with the light they were made with.
 struct FrameFiles {
   ordered_json files = ordered_json::array();
-  std::map<std::string, double> light;
+  std::map<std::string, double> light, noise;
   bool complete = true;
 };
 
@@ -128,6 +129,7 @@ FrameFiles files_of_frame(const JobContext& job, const plan::Frame& frame) {
       if (!entry) continue;
       found.files.push_back(entry_json(*entry));
       found.light = entry->light;
+      found.noise = entry->noise;
     }
   }
   return found;
@@ -143,22 +145,24 @@ ordered_json frame_json(const JobContext& job, const plan::Frame& frame, const F
   auto effects = ordered_json::array();
   for (const auto& decision : plan::decide_effects(job.plan, frame))
     if (decision.on) effects.push_back(name_of(decision.effect));
-  return {{"frame", frame.index},
-          {"site", config.sites[frame.site].name},
-          {"camera", config.cameras[frame.camera].name},
-          {"utc", format_utc(frame.instant, 3)},
-          {"local", format_local(frame.local)},
-          {"sun", sun},
-          {"moon", moon},
-          {"exposure", exposure_json(frame.ev)},
-          {"model", plan::name_of(job.plan.model)},
-          {"extrapolated", frame.sun.extrapolated},
-          {"turbidity", config.air.turbidity[frame.turbidity].value},
-          {"ground_albedo", config.air.ground_albedo[frame.albedo].value.name},
-          {"effects", effects},
-          {"light", found.light},
-          {"complete", found.complete},
-          {"files", found.files}};
+  ordered_json out = {{"frame", frame.index},
+                      {"site", config.sites[frame.site].name},
+                      {"camera", config.cameras[frame.camera].name},
+                      {"utc", format_utc(frame.instant, 3)},
+                      {"local", format_local(frame.local)},
+                      {"sun", sun},
+                      {"moon", moon},
+                      {"exposure", exposure_json(frame.ev)},
+                      {"model", plan::name_of(job.plan.model)},
+                      {"extrapolated", frame.sun.extrapolated},
+                      {"turbidity", config.air.turbidity[frame.turbidity].value},
+                      {"ground_albedo", config.air.ground_albedo[frame.albedo].value.name},
+                      {"effects", effects},
+                      {"light", found.light},
+                      {"complete", found.complete},
+                      {"files", found.files}};
+  if (!found.noise.empty()) out["noise"] = found.noise;
+  return out;
 }
 
 /// What computed the atmosphere. A run that kept all its frames has not asked for it: then what the
@@ -191,11 +195,18 @@ ordered_json computed_by_json(const JobContext& job) {
           {"tables", tables}};
 }
 
-/// Nothing for the model that runs without GL.
+/// Nothing for the fitted models that run without GL.
 ordered_json atmosphere_json(const JobContext& job) {
-  if (job.plan.model == config::SkyModel::hosek_wilkie) return nullptr;
+  if (plan::is_fitted(job.plan.model) && job.plan.model != config::SkyModel::hosek_wilkie_gl)
+    return nullptr;
   if (plan::is_fitted(job.plan.model)) return {{"computed_by", computed_by_json(job)}};
   const config::Sky& sky = job.plan.job.sky;
+  if (job.plan.model == config::SkyModel::reference)
+    return {{"wavelengths", sky.wavelengths},
+            {"samples", sky.paths.samples},
+            {"relative_error", sky.paths.relative_error ? ordered_json(*sky.paths.relative_error)
+                                                        : ordered_json(nullptr)},
+            {"seed", sky.paths.seed}};
   return {{"level", sky::bruneton::name_of(sky.level)},
           {"wavelengths", sky.wavelengths},
           {"computed_by", computed_by_json(job)}};
@@ -228,7 +239,7 @@ ordered_json head_json(const JobContext& job) {
 
 /// One frame a line, written as it is made: a long job's manifest is larger than its plan.
 void stream_manifest(const JobContext& job, std::ostream& out) {
-  std::string head = head_json(job).dump(1);
+  std::string head = head_json(job).dump(1, ' ', false, ordered_json::error_handler_t::replace);
   head.erase(head.find_last_of('}'));
   head.erase(head.find_last_not_of(" \n") + 1);
   out << head << ",\n \"frames\": [";
@@ -238,7 +249,9 @@ void stream_manifest(const JobContext& job, std::ostream& out) {
     const FrameFiles found = files_of_frame(job, frame);
     complete += found.complete ? 1 : 0;
     if (found.files.empty() && !found.complete) continue;  // nothing to tell yet
-    out << (first ? "\n  " : ",\n  ") << frame_json(job, frame, found).dump();
+    out << (first ? "\n  " : ",\n  ")
+        << frame_json(job, frame, found)
+               .dump(-1, ' ', false, ordered_json::error_handler_t::replace);
     first = false;
   }
   out << "\n ],\n \"frames_complete\": " << complete

@@ -65,7 +65,8 @@ Picture make_picture(const JobContext& job, const Movie& movie, const plan::Fram
   const bool faces_apart = job.plan.job.cameras[frame.camera].cube_faces_apart;
   if (source && !faces_apart) return read_picture(job, frame, *source);
   StageTimes times;
-  const auto rendered = render_frame(job.plan, frame, job.atmospheres, false, times);
+  const auto rendered =
+      render_frame(job.plan, frame, job.atmospheres, false, times, job.report_paths());
   if (!rendered) return {{}, rendered.error()};
   return {display_picture(frame, *rendered, *job.displays.of(movie.output), times), {}};
 }

@@ -5,19 +5,9 @@
 #include "plan/effect_planner.h"
 
 namespace skylapse::pipeline {
-namespace {
-
-bool has_effect(const std::vector<plan::EffectDecision>& decisions, plan::Effect effect) {
-  for (const auto& decision : decisions)
-    if (decision.effect == effect) return decision.on;
-  return false;
-}
-
-}  // namespace
-
 Result<RenderedFrame> render_frame(const plan::Plan& plan, const plan::Frame& frame,
                                    AtmosphereService& atmospheres, bool keep_without_disc,
-                                   StageTimes& times) {
+                                   StageTimes& times, const std::function<bool(double)>& progress) {
   const config::JobConfig& job = plan.job;
   const image::Camera& camera = job.cameras[frame.camera].camera;
   const auto space = color::rgb_space_from_name(job.color.space);
@@ -26,7 +16,7 @@ Result<RenderedFrame> render_frame(const plan::Plan& plan, const plan::Frame& fr
 
   const auto sky = [&] {
     const StageTimer timer(times, Stage::atmosphere);
-    return sky_of(plan, frame, atmospheres);
+    return sky_of(plan, frame, atmospheres, progress);
   }();
   if (!sky) return sky.error();
 
@@ -37,13 +27,14 @@ Result<RenderedFrame> render_frame(const plan::Plan& plan, const plan::Frame& fr
     out.scene = image::FrameBuffer(camera.width, camera.height);
     const Status filled = sky->fill(camera, xyz_to_rgb, out.scene);
     if (!filled) return filled.error();
+    if (sky->noise) out.noise = std::move(*sky->noise);
   }
   if (keep_without_disc) out.scene_without_disc = out.scene;
 
   const sky::DiscEnergy energy = sky::disc_energy(sky->disc);
   out.sun_irradiance_xyz = energy.horizontal_irradiance;
   out.sun_normal_irradiance_xyz = energy.normal_irradiance;
-  if (has_effect(plan::decide_effects(plan, frame), plan::Effect::sun_disc)) {
+  if (plan::effects_of(plan, frame).has(plan::Effect::sun_disc)) {
     const StageTimer timer(times, Stage::disc);
     sky::SunDisc in_rgb = sky->disc;
     in_rgb.radiance = [&](Angle view_elevation, double limb) {

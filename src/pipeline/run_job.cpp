@@ -86,8 +86,9 @@ void run_task(const JobContext& job, Task& task) {
   find_missing(job, task);
   if (task.missing.empty()) return;
   const plan::Frame& frame = job.frame(task.number);
-  const auto rendered = render_frame(job.plan, frame, job.atmospheres,
-                                     wants_sky_without_disc(job.plan.job), task.times);
+  const auto rendered =
+      render_frame(job.plan, frame, job.atmospheres, wants_sky_without_disc(job.plan.job),
+                   task.times, job.report_paths());
   if (!rendered) {
     task.error = rendered.error();
     return;
@@ -175,6 +176,17 @@ std::string JobContext::fingerprint(const plan::Frame& frame, size_t output) con
                            color_config);
 }
 
+std::function<bool(double)> JobContext::report_paths() const {
+  return [this, before = 0.0](double share) mutable {
+    const double done = frames_by_paths->fetch_add(share - before) + share - before;
+    before = share;
+    if (options.on_progress)
+      options.on_progress({long(100 * done / double(options.frames.size())), 100, 0,
+                           seconds_since(start), "paths %"});
+    return !stopped();
+  };
+}
+
 bool JobContext::finished(const plan::Frame& frame, size_t output) const {
   const auto files = plan::files_of(plan, frame, output);
   if (!ledger.knows(files.front())) return false;
@@ -226,7 +238,9 @@ Result<RunSummary> run_job(const plan::Plan& plan, const RunOptions& as_asked) {
       options.on_progress({long(100 * share), 100, 0, seconds_since(start), "atmosphere %"});
     return options.stop_signal == nullptr || options.stop_signal->load() == 0;
   });
-  const JobContext job{plan, options, **io, *displays, *ledger, atmospheres, *color_config};
+  std::atomic<double> frames_by_paths = 0;
+  const JobContext job{plan,        options,       **io,  *displays,       *ledger,
+                       atmospheres, *color_config, start, &frames_by_paths};
   remove_leftovers(job);
 
   RunSummary summary;
