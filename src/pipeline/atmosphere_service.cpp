@@ -8,9 +8,12 @@
 
 #include "core/sha256.h"
 #include "plan/atmosphere_of_frame.h"
+#include "plan/effect_planner.h"
+#include "plan/table_settings.h"
 #include "sky/bruneton/gpu_model.h"
 #include "sky/bruneton/slice_irradiance.h"
 #include "sky/bruneton/slice_refine.h"
+#include "sky/bruneton/slice_window.h"
 #include "sky/bruneton/twin.h"
 
 namespace skylapse::pipeline {
@@ -19,13 +22,29 @@ namespace {
 using sky::atmosphere::Medium;
 using sky::bruneton::GpuModel;
 using sky::bruneton::Settings;
+using sky::bruneton::SkySlice;
+using sky::bruneton::SliceContent;
+using sky::bruneton::SliceGrid;
 using sky::bruneton::Tables;
 using sky::bruneton::Twin;
 
-/// A medium ready for frames: on the context, and in double for the transmittance of the disc.
+/// A medium ready for frames: on the context, or all on the processor; and in double for the
+/// transmittance of the disc.
 struct Model {
-  std::shared_ptr<const GpuModel> gpu;
+  std::shared_ptr<const GpuModel> gpu;  // null: `twin` makes the slices
   std::shared_ptr<const Twin> twin;
+  int steps = 0;
+
+  [[nodiscard]] Result<SkySlice> slice(Length height, Angle sun_zenith, const SliceGrid& grid,
+                                       const SliceContent& content) const {
+    if (gpu) return gpu->slice(height, sun_zenith, grid, content);
+    return twin->slice(height, sun_zenith, grid,
+                       {.samples = steps,
+                        .multiple_scattering = content.multiple_scattering,
+                        .ground = content.ground,
+                        .aerial_perspective = content.aerial_perspective,
+                        .window = content.window});
+  }
 };
 
 /// Tables without multiple scattering.
@@ -33,18 +52,6 @@ Tables bare_tables(const Medium& medium) {
   Tables tables;
   tables.medium = medium;
   return tables;
-}
-
-/// Sizes that suffice for both: tables that are mixed must be alike.
-Settings larger(Settings a, const Settings& b) {
-  for (int Settings::*size :
-       {&Settings::heights, &Settings::suns, &Settings::sun_rows_per_interval,
-        &Settings::directions_up, &Settings::directions_down, &Settings::azimuths,
-        &Settings::harmonics, &Settings::table_azimuths, &Settings::table_zeniths,
-        &Settings::samples, &Settings::first_order_samples, &Settings::max_orders})
-    a.*size = std::max(a.*size, b.*size);
-  a.stop_below = std::min(a.stop_below, b.stop_below);
-  return a;
 }
 
 /// The last few of a kind, by name.
@@ -97,6 +104,12 @@ std::optional<sky::AtmosphereDisc> disc_of(const Twin& twin, const plan::Frame& 
   return sky::AtmosphereDisc(twin.medium(), radius, lowest, step, transmittance);
 }
 
+/// That of sky.slice, or the model's own for this height.
+SliceGrid grid_of(const config::Sky& sky, const Medium& medium, Length height) {
+  if (sky.slice_azimuths == 0) return sky::bruneton::slice_grid(medium, height);
+  return sky::bruneton::slice_grid(medium, height, sky.slice_azimuths, sky.slice_zeniths);
+}
+
 }  // namespace
 
 struct AtmosphereService::State {
@@ -112,6 +125,7 @@ struct AtmosphereService::State {
   std::function<bool(double)> progress;
 
   mutable std::mutex mutex;  // of all below
+  bool started = false;
   std::optional<sky::bruneton::TableCache> cache;
   std::shared_ptr<gpu::Context> context;
   Recent<std::shared_ptr<const Tables>> tables{2};  // of air that changes; others are on the GPU
@@ -120,25 +134,50 @@ struct AtmosphereService::State {
   std::vector<std::string> notes;
 
   Status start();
-  Result<Model> model_of(const plan::Frame& frame);  // with the mutex held
-  Result<Model> single_scattering_model(const plan::Frame& frame);
+  Status start_context();
+  // With the mutex held:
+  Result<Model> model_of(const plan::Frame& frame, sky::EffectSet effects);
+  Result<Model> model_without_tables(const plan::Frame& frame);
   Result<std::shared_ptr<const Tables>> tables_of(const Medium& medium, const Settings& settings);
-  Result<Model> upload(const Tables& tables);
+  Result<Tables> compute(const Medium& medium, const Settings& settings) const;
+  Result<Model> ready(const std::shared_ptr<const Tables>& tables);
+  [[nodiscard]] bool on_processor() const {
+    return plan.job.sky.precision == config::SkyPrecision::full;
+  }
+  [[nodiscard]] int steps() const {
+    return plan.job.sky.steps > 0 ? plan.job.sky.steps : sky::bruneton::ModelOptions{}.samples;
+  }
   [[nodiscard]] bool air_changes() const {
     return std::any_of(plan.air.sites.begin(), plan.air.sites.end(),
                        [](const auto& nodes) { return !nodes.empty(); });
   }
 };
 
-Status AtmosphereService::State::start() {
+Status AtmosphereService::State::start_context() {
   if (context) return Done{};
   auto made = gpu::Context::create(backend);
   if (!made) return made.error();
   context = *std::move(made);
   record.context = context->info();
+  return Done{};
+}
+
+Status AtmosphereService::State::start() {
+  if (started) return Done{};
+  if (on_processor())
+    record.context.backend = "processor", record.context.renderer = "double precision";
+  else if (Status made = start_context(); !made)
+    return made;
   if (!cache) cache = sky::bruneton::TableCache::standard();
   if (!cache->note().empty()) notes.push_back(cache->note());
+  started = true;
   return Done{};
+}
+
+Result<Tables> AtmosphereService::State::compute(const Medium& medium,
+                                                 const Settings& settings) const {
+  if (on_processor()) return sky::bruneton::precompute_twin(medium, settings, progress);
+  return sky::bruneton::precompute(*context, medium, settings, progress);
 }
 
 Result<std::shared_ptr<const Tables>> AtmosphereService::State::tables_of(
@@ -150,7 +189,7 @@ Result<std::shared_ptr<const Tables>> AtmosphereService::State::tables_of(
   auto computed = cache->find(medium, settings, maker);
   const bool cached = computed.has_value();
   if (!cached) {
-    auto fresh = sky::bruneton::precompute(*context, medium, settings, progress);
+    auto fresh = compute(medium, settings);
     if (!fresh) return fresh.error();
     computed = *std::move(fresh);
     const Status stored = cache->store(*computed, maker);
@@ -164,42 +203,44 @@ Result<std::shared_ptr<const Tables>> AtmosphereService::State::tables_of(
   return shared;
 }
 
-Result<Model> AtmosphereService::State::upload(const Tables& from) {
-  auto gpu = GpuModel::create(context, from);
+Result<Model> AtmosphereService::State::ready(const std::shared_ptr<const Tables>& from) {
+  if (on_processor()) return Model{nullptr, std::make_shared<const Twin>(from), steps()};
+  auto gpu = GpuModel::create(
+      context, *from,
+      {.samples = steps(), .half_source = plan.job.sky.precision == config::SkyPrecision::half});
   if (!gpu) return gpu.error();
   return Model{
       std::make_shared<const GpuModel>(*std::move(gpu)),
-      std::make_shared<const Twin>(std::make_shared<const Tables>(bare_tables(from.medium)))};
+      std::make_shared<const Twin>(std::make_shared<const Tables>(bare_tables(from->medium))),
+      steps()};
 }
 
-Result<Model> AtmosphereService::State::single_scattering_model(const plan::Frame& frame) {
+Result<Model> AtmosphereService::State::model_without_tables(const plan::Frame& frame) {
   const auto medium = plan::medium_of_frame(plan.job, plan.air, frame);
   if (!medium) return medium.error();
-  const std::string name = canonical_text(*medium);
+  const std::string name = "no tables " + canonical_text(*medium);
   if (auto found = models.find(name)) return *found;
-  auto model = upload(bare_tables(*medium));
+  auto model = ready(std::make_shared<const Tables>(bare_tables(*medium)));
   if (model) models.keep(name, *model);
   return model;
 }
 
-Result<Model> AtmosphereService::State::model_of(const plan::Frame& frame) {
+Result<Model> AtmosphereService::State::model_of(const plan::Frame& frame, sky::EffectSet effects) {
   return apart([&]() -> Result<Model> {
-    const Status started = start();
-    if (!started) return started.error();
-    if (plan.model == config::SkyModel::single_scattering) return single_scattering_model(frame);
+    const Status ok = start();
+    if (!ok) return ok.error();
+    if (!plan::reads_tables(plan, effects)) return model_without_tables(frame);
     const auto media = plan::tables_of_frame(plan.job, plan.air, frame);
     if (!media) return media.error();
-    const auto level = plan.job.sky.level;
-    Settings settings = settings_for(level, media->a);
+    const Settings settings = plan::table_settings(plan, *media, effects);
     const bool mixed = media->weight > 0;
-    if (mixed) settings = larger(settings, settings_for(level, media->b));
     const std::string name = canonical_text(media->a) + canonical_text(settings);
     if (!mixed)
       if (auto found = models.find(name)) return *found;
     const auto a = tables_of(media->a, settings);
     if (!a) return a.error();
     if (!mixed) {
-      auto model = upload(**a);
+      auto model = ready(*a);
       if (model) models.keep(name, *model);
       return model;
     }
@@ -207,7 +248,8 @@ Result<Model> AtmosphereService::State::model_of(const plan::Frame& frame) {
     if (!b) return b.error();
     const auto medium = plan::medium_of_frame(plan.job, plan.air, frame);
     if (!medium) return medium.error();
-    return upload(sky::bruneton::blend(**a, **b, media->weight, *medium));
+    return ready(
+        std::make_shared<const Tables>(sky::bruneton::blend(**a, **b, media->weight, *medium)));
   });
 }
 
@@ -219,32 +261,51 @@ AtmosphereService::AtmosphereService(const plan::Plan& plan, gpu::Backend backen
 AtmosphereService::~AtmosphereService() = default;
 
 Result<FrameAtmosphere> AtmosphereService::of_frame(const plan::Frame& frame) {
+  const plan::Plan& plan = state_->plan;
+  const sky::EffectSet effects = plan::effects_of(plan, frame);
+  const auto medium = plan::medium_of_frame(plan.job, plan.air, frame);
+  if (!medium) return medium.error();
+  const SliceGrid grid = grid_of(plan.job.sky, *medium, frame.camera_height);
+  const Angle sun_zenith = 90 * deg - elevation(frame.sun.direction);
+  SliceContent content{.multiple_scattering = true,
+                       .ground = effects.has(sky::Effect::ground),
+                       .aerial_perspective = effects.has(sky::Effect::aerial_perspective)};
+  if (!effects.has(sky::Effect::unseen_sky))
+    content.window =
+        sky::bruneton::window_of(plan.job.cameras[frame.camera].camera, grid, frame.sun.direction);
+  if (content.window && content.window->empty()) {
+    // Above the air and looking away from it: nothing shines but the sun, and none of the sky's
+    // light falls on a level surface.
+    const Twin twin(std::make_shared<const Tables>(bare_tables(*medium)));
+    return FrameAtmosphere{
+        dark_slice(*medium, sun_zenith, grid, content.window), {}, disc_of(twin, frame)};
+  }
   // The context does one thing at a time. Held until the slice is there, so that of air that
   // changes one model exists and not one for each frame in flight.
   std::unique_lock lock(state_->mutex);
-  const auto model = state_->model_of(frame);
+  const auto model = state_->model_of(frame, effects);
   if (!model) return model.error();
-  const bool multiple = state_->plan.model == config::SkyModel::bruneton;
-  const auto grid = sky::bruneton::slice_grid(model->twin->medium(), frame.camera_height);
-  auto slice = model->gpu->slice(frame.camera_height, 90 * deg - elevation(frame.sun.direction),
-                                 grid, {.multiple_scattering = multiple, .ground = true});
+  auto slice = model->slice(frame.camera_height, sun_zenith, grid, content);
   if (!slice) return slice.error();
+  const SliceGrid dome = sky::bruneton::irradiance_grid(*medium, frame.camera_height);
+  auto lit = model->slice(frame.camera_height, sun_zenith, dome,
+                          {.ground = false, .window = sky::bruneton::irradiance_window(dome)});
+  if (!lit) return lit.error();
   lock.unlock();
-  FrameAtmosphere air{sky::bruneton::refined(*slice), {}, disc_of(*model->twin, frame)};
-  air.sky_irradiance_xyz = horizontal_irradiance_xyz(air.slice);
-  return air;
+  return FrameAtmosphere{refined(*slice), horizontal_irradiance_xyz(refined(*lit)),
+                         disc_of(*model->twin, frame)};
 }
 
 Result<std::shared_ptr<gpu::Context>> AtmosphereService::context() {
   const std::lock_guard lock(state_->mutex);
-  const Status started = apart([&] { return state_->start(); });
+  const Status started = apart([&] { return state_->start_context(); });
   if (!started) return started.error();
   return state_->context;
 }
 
 std::optional<AtmosphereRecord> AtmosphereService::record() const {
   const std::lock_guard lock(state_->mutex);
-  if (!state_->context) return {};
+  if (!state_->started && !state_->context) return {};
   return state_->record;
 }
 
