@@ -105,7 +105,7 @@ ProjectedDisc to_radiance(const std::vector<LitPixel>& pixels) {
 ProjectedDisc project_sun_disc(const image::Camera& camera, const SunDisc& disc) {
   assert(disc.radius > Angle{} && disc.radius <= 10 * deg);
   const Angle el = elevation(disc.centre) - disc.horizon;
-  if (el <= -disc.radius) return {};
+  if (el <= -disc.flattening * disc.radius) return {};
   const LatticePlan plan = plan_lattice(camera, disc);
   const Angle reach = disc.radius + 3 * plan.pixel_extent_rad * rad;
   const std::optional<Angle> near_horizon = el < reach ? std::optional(disc.horizon) : std::nullopt;

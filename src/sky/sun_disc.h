@@ -21,7 +21,17 @@ struct SunDisc {
   std::function<glm::dvec3(Angle view_elevation, double limb_m)> radiance;
   /// Elevation of the horizon, in (-90, 0] deg: minus the dip of a camera above the ground.
   Angle horizon{};
+  /// Height over width, in (0, 1]: the air lifts the lower limb of a low sun more than the upper.
+  /// Each point stands `flattening` times as far above or below the centre, along its circle at
+  /// right angles to the horizon, as without; gamma in the limb variable is the angle before that.
+  /// Radiance is kept, so the flux is `flattening` times that of a round disc of even light.
+  double flattening = 1;
 };
+
+/// sin^2(gamma / 2) of the angle gamma that a direction of the flattened disc had from its centre
+/// before refraction drew it together: with lambda out of the vertical plane and psi up in it,
+///   cos gamma = cos lambda cos(psi / flattening).
+double haversine_in_disc(const SunDisc& disc, const Direction<Enu>& direction);
 
 /// Irradiance by the disc, per channel, in its radiance unit times steradian.
 struct DiscEnergy {

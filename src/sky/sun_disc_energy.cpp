@@ -6,6 +6,7 @@
 //   dOmega = cos(lambda) dlambda dpsi.
 // With s = sin(radius), sin(psi) = s sin(t) and sin(lambda) = s X sin(phi), where X is the limb at
 // that psi, the limb variable is m = cos(t) cos(phi): the integrand is smooth up to the limb.
+// Flattening multiplies psi by k and dOmega with it.
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -41,23 +42,40 @@ struct GaussLegendre {
   }
 };
 
+/// Upward at the centre of a disc: at right angles to it, in its vertical plane.
+glm::dvec3 up_at(const Direction<Enu>& centre) {
+  const glm::dvec3 c = centre.vec();
+  const double horizontal = std::hypot(c.x, c.y);
+  if (horizontal == 0) return {0, 1, 0};
+  return {-c.x * c.z / horizontal, -c.y * c.z / horizontal, horizontal};
+}
+
+/// haversine_in_disc from the sine of lambda and from psi.
+double flattened_haversine(double sin_lambda, double psi, double flattening) {
+  const double cos_lambda = std::sqrt(std::max(0.0, 1 - sin_lambda * sin_lambda));
+  const double half = std::sin(0.5 * psi / flattening);
+  // 1 - cos(lambda) = sin^2 / (1 + cos): nothing cancels.
+  return 0.5 * sin_lambda * sin_lambda / (1 + cos_lambda) + cos_lambda * half * half;
+}
+
 /// Of a disc that is cut along elevation 0, or not at all.
 DiscEnergy energy_of_level_cut(const SunDisc& disc, bool cut) {
   static const GaussLegendre<32> outer;
   static const GaussLegendre<24> inner;
   const double s = sin(disc.radius);
   const double e = elevation(disc.centre).in(rad);
-  const double sine_lowest = -std::sin(e) / s;  // sin(t) at the horizon
+  const double k = disc.flattening, lowest = -e / k;  // psi / k at the horizon
   DiscEnergy energy;
-  if (cut && sine_lowest >= 1) return energy;
-  const double t0 = !cut || sine_lowest <= -1 ? -kPi / 2 : std::asin(sine_lowest);
+  if (cut && lowest >= disc.radius.in(rad)) return energy;
+  const bool whole = !cut || lowest <= -disc.radius.in(rad);
+  const double t0 = whole ? -kPi / 2 : std::asin(std::clamp(std::sin(lowest) / s, -1.0, 1.0));
   const double half_t = 0.5 * (kPi / 2 - t0), middle_t = 0.5 * (kPi / 2 + t0);
   for (size_t i = 0; i < outer.nodes.size(); ++i) {
     const double t = middle_t + half_t * outer.nodes[i];
     const double sin_psi = s * std::sin(t), cos_psi = std::sqrt(1 - sin_psi * sin_psi);
-    const double psi = std::asin(sin_psi);
+    const double psi = k * std::asin(sin_psi);
     const double limb_x = std::cos(t) / cos_psi;
-    const double dpsi = half_t * outer.weights[i] * s * std::cos(t) / cos_psi;
+    const double dpsi = k * half_t * outer.weights[i] * s * std::cos(t) / cos_psi;
     for (size_t j = 0; j < inner.nodes.size() / 2; ++j) {  // both halves are alike
       const double phi = 0.5 * kPi * inner.nodes[j];
       const double sin_lambda = s * limb_x * std::sin(phi);
@@ -76,30 +94,59 @@ DiscEnergy energy_of_level_cut(const SunDisc& disc, bool cut) {
   return energy;
 }
 
+struct Strip {
+  double alpha, centre;  // elevations of the strip and of the disc's centre
+  double flattening;
+
+  [[nodiscard]] double haversine(double azimuth) const {
+    if (flattening == 1) {
+      const double x = std::sin(0.5 * (alpha - centre)), a = std::sin(0.5 * azimuth);
+      return x * x + std::cos(alpha) * std::cos(centre) * a * a;
+    }
+    const double psi = std::atan2(std::sin(alpha), std::cos(alpha) * std::cos(azimuth)) - centre;
+    return flattened_haversine(std::cos(alpha) * std::sin(azimuth), psi, flattening);
+  }
+
+  [[nodiscard]] double half_width(double radius) const {
+    const double x = alpha - centre;
+    const double edge = std::sin(0.5 * (radius + x)) * std::sin(0.5 * (radius - x)) /
+                        (std::cos(alpha) * std::cos(centre));
+    const double round = 2 * std::asin(std::sqrt(std::clamp(edge, 0.0, 1.0)));
+    if (flattening == 1) return round;
+    // Flattening takes from the strip: the round disc's half-width is the most it can be.
+    const double limb = std::sin(0.5 * radius) * std::sin(0.5 * radius);
+    double low = 0, high = round;
+    for (int i = 0; i < 55; ++i) {
+      const double middle = 0.5 * (low + high);
+      (haversine(middle) < limb ? low : high) = middle;
+    }
+    return low;
+  }
+};
+
 /// Of a disc that a horizon below the level cuts: that is a small circle of the sphere, so the disc
 /// is taken in strips of equal elevation alpha = e + R sin(t), each of half-width D in azimuth,
 ///   sin^2(D / 2) = sin((R + x) / 2) sin((R - x) / 2) / (cos(alpha) cos(e)),   x = alpha - e
-/// (haversines), within which the azimuth is D sin(phi).
+/// (haversines), within which the azimuth is D sin(phi). A flattened disc reaches k R up and down,
+/// and its half-width is found by bisection.
 DiscEnergy energy_of_dipped_cut(const SunDisc& disc) {
   static const GaussLegendre<32> outer;
   static const GaussLegendre<24> inner;
   const double r = disc.radius.in(rad), s = sin(disc.radius);
   const double e = elevation(disc.centre).in(rad), horizon = disc.horizon.in(rad);
-  const double t0 = std::asin(std::clamp((horizon - e) / r, -1.0, 1.0));
+  const double k = disc.flattening, reach = k * r;
+  const double t0 = std::asin(std::clamp((horizon - e) / reach, -1.0, 1.0));
   const double half_t = 0.5 * (kPi / 2 - t0), middle_t = 0.5 * (kPi / 2 + t0);
   DiscEnergy energy;
   for (size_t i = 0; i < outer.nodes.size(); ++i) {
     const double t = middle_t + half_t * outer.nodes[i];
-    const double x = r * std::sin(t), alpha = e + x;
-    const double cosines = std::cos(alpha) * std::cos(e);
-    const double edge = std::sin(0.5 * (r + x)) * std::sin(0.5 * (r - x)) / cosines;
-    const double half_width = 2 * std::asin(std::sqrt(std::clamp(edge, 0.0, 1.0)));
-    const double dalpha = half_t * outer.weights[i] * r * std::cos(t);
+    const Strip strip{e + reach * std::sin(t), e, k};
+    const double alpha = strip.alpha, half_width = strip.half_width(r);
+    const double dalpha = half_t * outer.weights[i] * reach * std::cos(t);
     for (size_t j = 0; j < inner.nodes.size() / 2; ++j) {  // both halves are alike
       const double phi = 0.5 * kPi * inner.nodes[j];
       const double azimuth = half_width * std::sin(phi);
-      const double hav = std::sin(0.5 * x) * std::sin(0.5 * x) +
-                         cosines * std::sin(0.5 * azimuth) * std::sin(0.5 * azimuth);
+      const double hav = strip.haversine(azimuth);
       const double sine_gamma2 = 4 * hav * (1 - hav);
       const double limb = std::sqrt(std::max(0.0, 1 - sine_gamma2 / (s * s)));
       const double domega =
@@ -114,13 +161,22 @@ DiscEnergy energy_of_dipped_cut(const SunDisc& disc) {
 
 }  // namespace
 
+double haversine_in_disc(const SunDisc& disc, const Direction<Enu>& direction) {
+  const glm::dvec3 c = disc.centre.vec(), up = up_at(disc.centre), d = direction.vec();
+  const double sin_lambda = std::clamp(glm::dot(d, glm::cross(c, up)), -1.0, 1.0);
+  const double psi = std::atan2(glm::dot(d, up), glm::dot(d, c));
+  return flattened_haversine(sin_lambda, psi, disc.flattening);
+}
+
 DiscEnergy disc_energy(const SunDisc& disc) {
   assert(disc.radius > Angle{} && disc.radius <= 10 * deg);
+  assert(disc.flattening > 0 && disc.flattening <= 1);
   assert(disc.horizon <= Angle{} && disc.horizon > -90 * deg);
   if (disc.horizon == Angle{}) return energy_of_level_cut(disc, true);
   const Angle over = elevation(disc.centre) - disc.horizon;
-  if (over <= -disc.radius) return {};
-  if (over >= disc.radius) return energy_of_level_cut(disc, false);
+  const Angle reach = disc.flattening * disc.radius;
+  if (over <= -reach) return {};
+  if (over >= reach) return energy_of_level_cut(disc, false);
   return energy_of_dipped_cut(disc);
 }
 

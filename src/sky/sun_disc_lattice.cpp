@@ -38,10 +38,18 @@ class DiscSampler {
     double sine = 0;  // of the elevation of the covered part's middle; 0 below the level
   };
 
-  [[nodiscard]] Sample operator()(const Direction<Enu>& direction, SolidAngle cell) const {
+  /// From the centre, before flattening.
+  [[nodiscard]] double angle_in_disc(const Direction<Enu>& direction) const {
     const double chord = glm::length(direction.vec() - disc_.centre.vec());
+    // Flattening draws points together: what is outside the round disc is outside.
+    if (disc_.flattening == 1 || chord > 2 * radius_)
+      return 2 * std::asin(std::min(1.0, 0.5 * chord));
+    return 2 * std::asin(std::sqrt(std::min(1.0, haversine_in_disc(disc_, direction))));
+  }
+
+  [[nodiscard]] Sample operator()(const Direction<Enu>& direction, SolidAngle cell) const {
     const double side = std::sqrt(cell.in(sr));
-    const double gamma = 2 * std::asin(std::min(1.0, 0.5 * chord));
+    const double gamma = angle_in_disc(direction);
     const double in_disc = std::clamp((radius_ - gamma) / side + 0.5, 0.0, 1.0);
     if (in_disc == 0 || side == 0) return {};
     const double el = elevation(direction).in(rad);

@@ -89,4 +89,24 @@ TEST(Refraction, LeavesZenithAndNadirInPlace) {
 }
 
 }  // namespace
+TEST(Flattening, OfASunOnTheHorizonIsAboutAFifth) {
+  const RefractionConditions air{true, 1013 * hPa, 10 * degC};
+  // Bennett 1982 and the almanacs: the setting sun is some 26' high and 32' wide; the formula of
+  // the refraction, a few percent off its truth near the horizon, has 0.83 to 0.84.
+  const Angle on_horizon = -34.2 * arcmin;
+  EXPECT_NEAR(flattening(on_horizon, 16 * arcmin, air), 0.835, 0.01);
+  EXPECT_GT(flattening(45 * deg, 16 * arcmin, air), 1 - 1e-3);
+  EXPECT_LT(flattening(45 * deg, 16 * arcmin, air), 1);
+}
+
+TEST(Flattening, IsBetweenNothingAndOneEverywhere) {
+  for (const double pressure : {0.0, 300.0, 1013.0, 2000.0})
+    for (double el = -90; el <= 90; el += 0.05) {
+      const double k = flattening(el * deg, 16 * arcmin, {true, pressure * hPa, -40 * degC});
+      ASSERT_GT(k, 0.5) << el;
+      ASSERT_LE(k, 1) << el;
+    }
+  EXPECT_EQ(flattening(1 * deg, 16 * arcmin, {false, 1013 * hPa, 10 * degC}), 1);
+}
+
 }  // namespace skylapse::astro::test
