@@ -26,6 +26,13 @@ void note(const ConsoleOptions& console, const std::string& text);
 /// Text to stdout as it is. What cannot be written is reported by finish_stdout.
 void print(const std::string& text);
 
+/// A JSON document as text. Names of files need not be UTF-8, JSON must be: other bytes are
+/// replaced.
+template <class Json>
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 /// Flushes stdout. A full disk or a closed descriptor there is an error of its own (exit 6). A
 /// reader that has gone (`skylapse plan scene.yaml | head`) is none: it has what it wanted, so the
 /// command ends quietly with the code of its own work.

@@ -117,14 +117,18 @@ int CsvTable::column(const std::string& name) const {
 Result<CsvTable> read_csv(const std::string& file) {
   auto text = read_all(file);
   if (!text) return text.error();
+  return parse_csv(*std::move(text), file == "-" ? "standard input" : file);
+}
+
+Result<CsvTable> parse_csv(std::string text, std::string name) {
   CsvTable table;
-  table.file = file == "-" ? "standard input" : file;
-  std::istringstream lines(*std::move(text));
+  table.file = std::move(name);
+  std::istringstream lines(std::move(text));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
-    if (line.empty() || line[0] == '#') continue;
+    if (line.find_first_not_of(" \t") == std::string::npos || line[0] == '#') continue;
     auto fields = parse_line(line);
     if (!fields) {
       Error error{ErrorCode::invalid_input,

@@ -157,7 +157,7 @@ ExitCode run_doctor(const ConsoleOptions& console) {
                                      : "FAIL",
                         finding.name, finding.text));
   }
-  if (console.json) print(json.dump(2) + "\n");
+  if (console.json) print(json_text(json));
   return healthy ? ExitCode::done : ExitCode::missing_backend;
 }
 

@@ -14,7 +14,7 @@ void add_plan_command(CLI::App& app, Session& session) {
     session.action = [&session, arguments] {
       const auto work = plan_work(*arguments);
       if (!work) return report(work.error());
-      print(session.console.json ? plan_json(*work).dump(2) + "\n" : plan_text(*work));
+      print(session.console.json ? json_text(plan_json(*work)) : plan_text(*work));
       return ExitCode::done;
     };
   });

@@ -68,7 +68,7 @@ ExitCode run_render(const RenderArguments& arguments, const ConsoleOptions& cons
   const auto work = plan_work(arguments.job);
   if (!work) return report(work.error());
   if (arguments.dry_run) {
-    print(console.json ? plan_json(*work).dump(2) + "\n" : plan_text(*work));
+    print(console.json ? json_text(plan_json(*work)) : plan_text(*work));
     return ExitCode::done;
   }
   for (const std::string& text : work->plan.notes) note(console, "note: " + text);
@@ -90,7 +90,7 @@ ExitCode run_render(const RenderArguments& arguments, const ConsoleOptions& cons
     return code == ExitCode::interrupted && g_signal == SIGTERM ? ExitCode::terminated : code;
   }
   if (console.json)
-    print(summary_json(*summary).dump(2) + "\n");
+    print(json_text(summary_json(*summary)));
   else
     note(console, summary_text(*summary, arguments.job.output));
   return ExitCode::done;

@@ -28,9 +28,7 @@ Result<std::filesystem::path> target(const std::string& output, const std::files
 /// One JSON document, or a note for people.
 void print_made(const ConsoleOptions& console, const std::filesystem::path& file, size_t frames) {
   if (console.json)
-    print(nlohmann::ordered_json{{"file", file.string()}, {"frames", frames}}.dump(
-              2, ' ', false, nlohmann::json::error_handler_t::replace) +
-          "\n");
+    print(json_text(nlohmann::ordered_json{{"file", file.string()}, {"frames", frames}}));
   else
     note(console, fmt::format("{} frames: {}", frames, file.string()));
 }

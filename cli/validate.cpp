@@ -44,7 +44,7 @@ ExitCode run_validate(const ValidateArguments& arguments, const ConsoleOptions& 
         {{"file", file}, {"valid", errors.empty()}, {"frames", frames}, {"errors", listed}});
     all.insert(all.end(), errors.begin(), errors.end());
   }
-  if (console.json) print(files.dump(2) + "\n");
+  if (console.json) print(json_text(files));
   return all.empty() ? ExitCode::done : report(all);
 }
 

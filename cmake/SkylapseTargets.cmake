@@ -1,6 +1,8 @@
 # The project's targets: one static library per source folder, tests and benchmarks beside it.
 option(SKYLAPSE_WERROR "Treat compiler warnings as errors" ON)
 option(SKYLAPSE_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+option(SKYLAPSE_SANITIZE_THREADS "Build with ThreadSanitizer" OFF)
+option(SKYLAPSE_FUZZ "Build the fuzzers, with Clang's libFuzzer and sanitizers" OFF)
 option(SKYLAPSE_BENCHMARKS "Build the benchmarks" ON)
 
 set(CMAKE_CXX_STANDARD 20)
@@ -20,6 +22,19 @@ endif()
 target_compile_options(skylapse_options INTERFACE -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
 if(SKYLAPSE_SANITIZE)
   target_compile_options(skylapse_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(skylapse_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(SKYLAPSE_SANITIZE_THREADS)
+  target_compile_options(skylapse_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_link_options(skylapse_options INTERFACE -fsanitize=thread)
+endif()
+if(SKYLAPSE_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "SKYLAPSE_FUZZ needs Clang (preset fuzz): libFuzzer is part of it")
+  endif()
+  # Clang 14 asks for braces that the standard lets arrays of structs leave out; GCC judges the product.
+  target_compile_options(skylapse_options INTERFACE -Wno-missing-braces)
+  target_compile_options(skylapse_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(skylapse_options INTERFACE -fsanitize=address,undefined)
 endif()
 

@@ -10,7 +10,10 @@ struct RayLight {
 // mu_s and nu are those at the camera.
 SunOfRay sun_of_ray(Ray ray, Real mu_s, Real nu) {
   Real mu_start = (ray.camera_radius * mu_s + ray.skipped * nu) / radius_of(ray.height);
-  return SunOfRay(clamp(mu_start, Real(-1.0), Real(1.0)), nu);
+  SunOfRay sun;  // member by member: not every C++ compiler builds structs as GLSL does
+  sun.mu_s = clamp(mu_start, Real(-1.0), Real(1.0));
+  sun.nu = nu;
+  return sun;
 }
 
 // Densities integrated over [from, to] of a ray, 3-point Gauss.

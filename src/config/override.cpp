@@ -9,6 +9,7 @@
 #include "config/quantity_parser.h"
 #include "config/yaml_reader.h"
 #include "config/yaml_text.h"
+#include "core/printable.h"
 
 namespace skylapse::config {
 namespace {
@@ -47,7 +48,7 @@ std::string without_empty_parts(const std::vector<Segment>& segments) {
   std::string path;
   for (const Segment& segment : segments)
     if (!segment.name.empty()) path += (path.empty() ? "" : ".") + segment.name;
-  return path.empty() ? kKeyExamples : fmt::format("did you mean {}=...?", path.substr(0, 60));
+  return path.empty() ? kKeyExamples : fmt::format("did you mean {}=...?", shown(path));
 }
 
 /// Marks the part of `path` that is wrong.
@@ -61,7 +62,7 @@ std::optional<Problem> key_path_problem(const std::string& path,
   for (const Segment& segment : segments)
     if (segment.name.empty())
       return Problem{path.empty() ? "there is no key before the ="
-                                  : fmt::format("a key is missing in \"{}\"", path.substr(0, 60)),
+                                  : fmt::format("a key is missing in \"{}\"", shown(path)),
                      without_empty_parts(segments), size_t(segment.place.column) - 1, 1};
   return std::nullopt;
 }
@@ -89,7 +90,7 @@ Node* list_item(Node& list, const Segment& segment, ErrorList& errors) {
   const auto index = parse_integer(segment.name);
   if (index && *index >= 0 && size_t(*index) < list.items.size()) return &list.items[*index];
   errors.add(
-      segment.place, fmt::format("the list has no item {}", segment.name.substr(0, 60)),
+      segment.place, fmt::format("the list has no item {}", shown(segment.name)),
       list.items.empty() ? "it is empty" : fmt::format("allowed: 0 to {}", list.items.size() - 1));
   return nullptr;
 }
@@ -99,7 +100,7 @@ Node* map_value(Node& map, const Segment& segment, ErrorList& errors) {
   if (map.kind == Node::Kind::null) map.kind = Node::Kind::map;
   if (map.kind != Node::Kind::map) {
     errors.add(segment.place,
-               fmt::format("\"{}\" names a part of a single value", segment.name.substr(0, 60)),
+               fmt::format("\"{}\" names a part of a single value", shown(segment.name)),
                "set the whole value");
     return nullptr;
   }
@@ -112,7 +113,8 @@ Node* map_value(Node& map, const Segment& segment, ErrorList& errors) {
 }  // namespace
 
 void apply_override(Node& root, const Override& change, SourceSet& sources, ErrorList& errors) {
-  const int source = sources.add("--set " + change.key_path.substr(0, 100), change.key_path + "=");
+  const int source =
+      sources.add("--set " + printable(beginning(change.key_path, 100)), change.key_path + "=");
   const std::vector<Segment> segments = split(change.key_path, source);
   if (const auto problem = key_path_problem(change.key_path, segments)) {
     errors.add({source, 1, int(problem->begin) + 1, int(problem->length)}, problem->message,

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "core/printable.h"
+
 namespace skylapse::config {
 namespace {
 
@@ -24,7 +26,7 @@ std::optional<Problem> token_problem(std::string_view path, size_t open) {
   const auto& known = path_token_names();
   if (std::find(known.begin(), known.end(), name) != known.end()) return std::nullopt;
   const auto nearest = name.size() <= 40 ? nearest_name(name, known) : std::nullopt;
-  return Problem{fmt::format("the token {{{}}} is not known", name.substr(0, 60)),
+  return Problem{fmt::format("the token {{{}}} is not known", shown(name)),
                  nearest ? fmt::format("did you mean {{{}}}?", *nearest) : token_list(), open,
                  close - open + 1};
 }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/printable.h"
+
 namespace skylapse::config {
 namespace {
 
@@ -17,10 +19,6 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   return text;
-}
-
-std::string shown(std::string_view text) {
-  return std::string(text.substr(0, 60)) + (text.size() > 60 ? "..." : "");
 }
 
 struct Scanned {

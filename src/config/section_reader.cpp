@@ -6,6 +6,7 @@
 #include <set>
 
 #include "config/value_reader.h"
+#include "core/printable.h"
 
 namespace skylapse::config {
 namespace {
@@ -31,7 +32,7 @@ std::optional<std::string> report_unknown_key(const MapEntry& entry, const Secti
   }
   context.errors.add(
       entry.key_place,
-      fmt::format("the key \"{}\" is not known {}", entry.key.substr(0, 60), in_section(path)),
+      fmt::format("the key \"{}\" is not known {}", shown(entry.key), in_section(path)),
       nearest ? fmt::format("did you mean {}?", *nearest)
               : fmt::format("known keys: {}", key_list(spec)));
   return nearest;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/printable.h"
+
 namespace skylapse::config {
 namespace {
 
@@ -12,10 +14,10 @@ constexpr size_t kLongestShownLine = 240;
 
 bool is_control(char c) { return (c >= 0 && c < 0x20 && c != '\t') || c == 0x7F; }
 
-/// Values are quoted in messages: what would steer a terminal is replaced.
-std::string printable(std::string text) {
-  std::replace_if(text.begin(), text.end(), is_control, '?');
-  return text;
+/// Values are quoted in messages: one line, nothing that would steer a terminal.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', '?');
+  return printable(text);
 }
 
 }  // namespace
@@ -71,7 +73,7 @@ SourceSpan SourceSet::span(const Place& place) const {
   while (cut < text.size() && cut > 0 && (text[cut] & 0xC0) == 0x80) --cut;
   const std::string_view shown = text.substr(0, cut);
   if (std::any_of(shown.begin(), shown.end(), is_control)) return span;
-  span.source_line = shown;
+  span.source_line = printable(shown);
   if (shown.size() == text.size()) return span;
   span.source_line += " ...";
   span.length = std::min(span.length, int(kLongestShownLine - begin));
@@ -82,7 +84,7 @@ void ErrorList::add(const Place& place, std::string message, std::string hint, E
   if (full())
     ++left_out_;
   else
-    kept_.push_back({place, code, printable(std::move(message)), printable(std::move(hint))});
+    kept_.push_back({place, code, one_line(std::move(message)), one_line(std::move(hint))});
 }
 
 Diagnostics ErrorList::diagnostics(const SourceSet& sources) const {

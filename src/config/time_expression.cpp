@@ -6,6 +6,7 @@
 #include <array>
 
 #include "config/quantity_parser.h"
+#include "core/printable.h"
 
 namespace skylapse::config {
 namespace {
@@ -59,10 +60,6 @@ class Cursor {
   std::string_view text_;
   size_t at_ = 0;
 };
-
-std::string shown(std::string_view text) {
-  return std::string(text.substr(0, 60)) + (text.size() > 60 ? "..." : "");
-}
 
 Result<std::chrono::year_month_day, Problem> take_date(Cursor& text, std::string_view whole) {
   const Problem malformed{fmt::format("\"{}\" is not a date", shown(whole)),

@@ -11,6 +11,7 @@
 #include "config/quantity_parser.h"
 #include "config/time_expression.h"
 #include "config/words.h"
+#include "core/printable.h"
 #include "core/quantity.h"
 #include "sky/ground_albedo.h"
 
@@ -20,10 +21,6 @@ namespace {
 constexpr size_t kLongestText = 200;
 constexpr size_t kLongestZone = 40;  // the longest IANA name has 32 letters
 constexpr int kLongestSide = 65536;
-
-std::string shown(std::string_view text) {
-  return std::string(text.substr(0, 60)) + (text.size() > 60 ? "..." : "");
-}
 
 std::vector<std::string> strings(const std::vector<std::string_view>& views) {
   return {views.begin(), views.end()};

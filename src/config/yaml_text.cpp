@@ -5,32 +5,10 @@
 #include <algorithm>
 
 #include "config/yaml_reader.h"
+#include "core/printable.h"
 
 namespace skylapse::config {
 namespace {
-
-/// Bytes of the UTF-8 character at `at`, 0 if it is malformed, overlong, a surrogate, or beyond
-/// U+10FFFF (RFC 3629, section 4).
-size_t utf8_length(std::string_view text, size_t at) {
-  const auto byte = [&](size_t i) {
-    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u;
-  };
-  const auto continues = [&](size_t i) { return (byte(i) & 0xC0u) == 0x80u; };
-  const unsigned b = byte(0);
-  if (b < 0x80) return 1;
-  if (b >= 0xC2 && b <= 0xDF) return continues(1) ? 2 : 0;
-  if (b >= 0xE0 && b <= 0xEF) {
-    if (!continues(1) || !continues(2)) return 0;
-    if ((b == 0xE0 && byte(1) < 0xA0) || (b == 0xED && byte(1) > 0x9F)) return 0;
-    return 3;
-  }
-  if (b >= 0xF0 && b <= 0xF4) {
-    if (!continues(1) || !continues(2) || !continues(3)) return 0;
-    if ((b == 0xF0 && byte(1) < 0x90) || (b == 0xF4 && byte(1) > 0x8F)) return 0;
-    return 4;
-  }
-  return 0;
-}
 
 /// Where the quote that `rest` begins with is closed; its size if it is not.
 size_t closing_quote(std::string_view rest) {

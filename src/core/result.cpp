@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/printable.h"
+
 namespace skylapse {
 namespace {
 
@@ -47,7 +49,7 @@ std::string format_error(const Error& error) {
   } else if (!error.hint.empty()) {
     text += "\n  " + error.hint;
   }
-  return text;
+  return printable(text);
 }
 
 std::optional<std::string> nearest_name(const std::string& word,

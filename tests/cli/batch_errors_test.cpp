@@ -81,6 +81,12 @@ TEST(Batch, AnUnclosedQuoteIsCalledSo) {
   expect_refused(outcome, {"input:2:1: ", "quote is opened and not closed", "input:3:25: "});
 }
 
+/// A fuzzer's finding: it was called an unclosed quote, at column 0.
+TEST(Batch, ABlankLineIsPassedOver) {
+  const auto outcome = sun("utc,lat_deg,lon_deg,height_m\n \t\n2026-06-21T00:00Z,50,14,0\n");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
 TEST(Batch, AColumnNamedTwiceIsRefused) {
   expect_refused(sun("utc,lat_deg,lon_deg,height_m,lat_deg\n"),
                  {"input:1:30: ", "'lat_deg' is named twice"});

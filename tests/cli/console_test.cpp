@@ -62,6 +62,19 @@ TEST_F(Console, JsonOfProbeHasTheInputAndTheRadianceOfTheTable) {
   EXPECT_EQ(rows[0]["radiance"].get<double>(), std::stod(table.out.substr(first)));
 }
 
+/// File names are bytes, JSON is UTF-8: such a name once ended the command as an internal error.
+TEST_F(Console, JsonCarriesFileNamesThatAreNoText) {
+  const std::string scene = write_text(folder_ / "s\xff.yaml", small_scene("{image: \"p.png\"}"));
+  for (const char* command : {"validate", "plan", "render"}) {
+    std::vector<std::string> arguments{command, scene, "--json"};
+    if (command == std::string("render"))
+      arguments.insert(arguments.end(), {"-o", folder_ / "o\xff"});
+    const auto outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << command << outcome.err;
+    EXPECT_TRUE(nlohmann::json::accept(outcome.out)) << command << "\n" << outcome.out;
+  }
+}
+
 TEST_F(Console, QuietCommandsSayNothingWhenAllIsWell) {
   const std::string out = folder_ / "out";
   const std::vector<std::vector<std::string>> commands{{"render", scene_, "-o", out, "--quiet"},

@@ -4,6 +4,7 @@
 
 #include "config/job_text.h"
 #include "config/yaml_reader.h"
+#include "core/printable.h"
 
 namespace skylapse::config {
 namespace {
@@ -132,6 +133,22 @@ TEST(HostileInput, TextFromTheFileCannotSteerTheTerminal) {
   for (const Error& error : job.error())
     for (const char c : format_error(error))
       EXPECT_TRUE(c == '\n' || c == '\t' || c < 0 || c >= 0x20);
+}
+
+/// A fuzzer's finding: values were cut at a byte, and JSON cannot carry half a character.
+TEST(HostileInput, ALongValueIsCutBetweenCharactersInMessages) {
+  for (const char* indent : {"", "x"}) {
+    std::string value = indent;
+    for (int i = 0; i < 80; ++i) value += "\u00e9";
+    for (const char* key : {"title", "step", "look_at", value.c_str()}) {
+      const auto job = parse_job("time: {" + std::string(key) + ": \"" + value + "\"}\n", "j.yaml");
+      ASSERT_FALSE(job.ok());
+      for (const Error& error : job.error()) {
+        EXPECT_EQ(printable(error.message), error.message);
+        EXPECT_EQ(printable(error.hint), error.hint);
+      }
+    }
+  }
 }
 
 TEST(HostileInput, AThousandMillionFramesAreRefusedByArithmetic) {

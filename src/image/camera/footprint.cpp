@@ -182,7 +182,8 @@ Footprint fisheye_footprint(const Camera& camera, const Direction<CameraFrame>& 
     const double v = ((double(row) + 0.5) / grid.rows - cy) / circle_px;
     const double outer = std::sqrt(std::max(0.0, s.r1 * s.r1 - v * v)) + cell;
     const double inner = std::sqrt(std::max(0.0, s.r0 * s.r0 - v * v)) - 2 * cell;
-    const auto add = [&](Interval u) {
+    // Named captures: C++20 as Clang reads it lets lambdas take structured bindings by value only.
+    const auto add = [&, circle_px = circle_px, cx = cx](Interval u) {
       u = intersection(u, {x.begin - cell, x.end + cell});
       if (!u.empty())
         add_span(f, row, {cx + circle_px * u.begin, cx + circle_px * u.end}, grid.columns);
