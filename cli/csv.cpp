@@ -29,6 +29,8 @@ struct LineError {
   std::string message, hint;
 };
 Result<std::vector<std::string>, LineError> parse_line(std::string line) {
+  if (line.find('\r') != std::string::npos)  // libcsv would begin a row there
+    return LineError{"a carriage return stands inside the line", "lines end with LF or CR LF"};
   line += '\n';
   csv_parser parser;
   csv_init(&parser, CSV_STRICT | CSV_APPEND_NULL);
@@ -128,12 +130,12 @@ Result<CsvTable> parse_csv(std::string text, std::string name) {
   for (int number = 1; std::getline(lines, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
-    if (line.find_first_not_of(" \t") == std::string::npos || line[0] == '#') continue;
+    if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
     auto fields = parse_line(line);
     if (!fields) {
       Error error{ErrorCode::invalid_input,
                   fields.error().message,
-                  {table.file, number, int(line.find('"')) + 1, 1, line},
+                  {table.file, number, int(line.find_first_of("\"\r")) + 1, 1, line},
                   fields.error().hint};
       if (table.columns.empty()) return error;
       if (table.bad_rows.size() <= kMaxBatchErrors) table.bad_rows.push_back(std::move(error));

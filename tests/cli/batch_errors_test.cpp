@@ -87,6 +87,12 @@ TEST(Batch, ABlankLineIsPassedOver) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
+/// A fuzzer's finding: it ended the row, and the fields after it went into the row as well.
+TEST(Batch, ACarriageReturnInsideALineIsRefused) {
+  expect_refused(sun(kSunHead + "2026-06-21T00:00Z,50,14\r0,\n"),
+                 {"input:2:24: ", "carriage return", "CR LF"});
+}
+
 TEST(Batch, AColumnNamedTwiceIsRefused) {
   expect_refused(sun("utc,lat_deg,lon_deg,height_m,lat_deg\n"),
                  {"input:1:30: ", "'lat_deg' is named twice"});
