@@ -51,6 +51,20 @@ TEST(DiscEnergy, OfTheHalfDiscOnTheHorizonIsHalf) {
   EXPECT_NEAR(e.horizontal_irradiance.y / (r - std::sin(r) * std::cos(r)), 1, 1e-9);
 }
 
+TEST(DiscEnergy, WithoutLimbDarkeningIsTheSame) {
+  // Where the radiance does not change with elevation the flux is exactly kept.
+  for (const double alpha : {0.0, 0.2, 0.72, 1.5}) {
+    SunDisc disc = test_sun({}, 20 * deg);
+    disc.radiance = [=](Angle, double m) { return glm::dvec3{std::pow(m, alpha)}; };
+    const auto darkened = disc_energy(disc);
+    disc.radiance = without_limb_darkening(disc.radiance);
+    EXPECT_EQ(disc.radiance(20 * deg, 0.1), disc.radiance(20 * deg, 0.9));
+    // The disc is flat to the square of its radius, 2e-5.
+    EXPECT_LT(worst_relative(disc_energy(disc).normal_irradiance, darkened.normal_irradiance),
+              3e-5);
+  }
+}
+
 TEST(DiscEnergy, OfAFlattenedEvenDiscIsItsShareOfTheRoundOnes) {
   // dOmega = cos(lambda) dlambda dpsi, and flattening multiplies psi: exact at any radius.
   for (const double k : {0.83, 0.95, 0.9994})

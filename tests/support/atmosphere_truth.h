@@ -1,5 +1,5 @@
 #pragma once
-// Reads the tables of tests/data/atmosphere.
+// Reads the tables of tests/data.
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -12,10 +12,11 @@ namespace skylapse {
 /// One row: column name -> number.
 using TruthRow = std::map<std::string, double>;
 
-/// All rows of tests/data/atmosphere/<name>. Throws when the file is missing, a row has not as many
+/// All rows of tests/data/<folder>/<name>. Throws when the file is missing, a row has not as many
 /// numbers as there are columns, or there is no row: a truth that is not there must not pass.
-inline std::vector<TruthRow> read_truth(const std::string& name) {
-  const std::string path = std::string(SKYLAPSE_TEST_DATA) + "/atmosphere/" + name;
+inline std::vector<TruthRow> read_truth(const std::string& name,
+                                        const std::string& folder = "atmosphere") {
+  const std::string path = std::string(SKYLAPSE_TEST_DATA) + "/" + folder + "/" + name;
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   std::vector<std::string> columns;
