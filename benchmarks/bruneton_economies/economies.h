@@ -68,6 +68,12 @@ struct Distance {
 };
 Distance distance(const SkySlice& slice, const SkySlice& truth);
 
-void partial_tables(const Context& context);
+void partial_tables(const Context& context, int bands);
+void orders(const Context& context, int bands);
+void steps(const Context& context, int bands);
+void half_floats(const Context& context, int bands);
+void components(const Context& context, int bands);
+void windows(const Context& context, int bands);
+void irradiance(const Context& context, int bands);
 
 }  // namespace skylapse::economies

@@ -1,6 +1,9 @@
 // What the economies of the computed atmosphere save, and what they cost in accuracy.
-//   bench_economies [tables]
+//   bench_economies [slices|irradiance|tables|half|orders|steps|components|all] [BANDS]
+// CPU times are of all threads: on a busy machine they are what can be compared.
 #include "economies.h"
+
+#include <utility>
 
 namespace skylapse::economies {
 
@@ -36,7 +39,20 @@ int main(int argc, char** argv) {
   using namespace skylapse;
   using namespace skylapse::economies;
   const std::string what = argc > 1 ? argv[1] : "all";
+  const int bands = argc > 2 ? std::clamp(std::atoi(argv[2]), 3, 32) : 16;
   const Context context = value_or_exit(gpu::Context::create(gpu::Backend::automatic));
-  if (what == "tables" || what == "all") partial_tables(context);
-  return 0;
+  const gpu::ContextInfo& info = context->info();
+  fmt::print("{}: {}, OpenGL {}\n", info.backend, info.renderer, info.version);
+  const std::pair<const char*, void (*)(const Context&, int)> parts[] = {
+      {"slices", windows},       {"irradiance", irradiance}, {"tables", partial_tables},
+      {"half", half_floats},     {"orders", orders},         {"steps", steps},
+      {"components", components}};
+  bool known = false;
+  for (const auto& [name, part] : parts) {
+    if (what != name && what != "all") continue;
+    known = true;
+    fmt::print("\n{}\n", name);
+    part(context, bands);
+  }
+  return known ? 0 : 2;
 }

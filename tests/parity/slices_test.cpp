@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "parity/twins.h"
+#include "sky/bruneton/half_source.h"
 
 namespace skylapse::sky::bruneton {
 namespace {
@@ -86,6 +87,73 @@ TEST_P(AnySlice, HoldsWhatWasAskedFor) {
   for (const bool multiple : {false, true})
     for (const bool ground : {false, true})
       compare(1.5 * km, 70 * deg, {.multiple_scattering = multiple, .ground = ground});
+}
+
+TEST_P(AnySlice, LeavesOutTheAirBeforeTheGroundAsTheTwinDoes) {
+  const SliceGrid grid = slice_grid(visible_tables()->medium, 3 * km, 9, 16);
+  const auto gl = model_->slice(3 * km, 60 * deg, grid, {.aerial_perspective = false});
+  ASSERT_TRUE(gl.ok()) << gl.error().message;
+  const SkySlice twin =
+      Twin(visible_tables())
+          .slice(3 * km, 60 * deg, grid, {.ground = true, .aerial_perspective = false});
+  EXPECT_LT(distance(gl->smooth, twin.smooth), 1e-4);
+  EXPECT_LT(distance(gl->aerosol, twin.aerosol), 1e-4);
+}
+
+TEST_P(AnySlice, APartHasTheBitsOfTheWholeAndNothingElse) {
+  const SliceGrid grid = slice_grid(visible_tables()->medium, 1 * km, 41, 18);
+  const SliceWindow windows[] = {
+      {{2, 5}, {}, {3, 40}}, {{}, {0, 9}, {0, 2}}, {{0, 1}, {8, 9}, {40, 41}}, whole_window(grid)};
+  const auto whole = model_->slice(1 * km, 93 * deg, grid, {});
+  ASSERT_TRUE(whole.ok()) << whole.error().message;
+  for (const SliceWindow& window : windows) {
+    const auto part = model_->slice(1 * km, 93 * deg, grid, {.window = window});
+    ASSERT_TRUE(part.ok()) << part.error().message;
+    for (int row = 0; row < grid.zeniths; ++row)
+      for (int i = 0; i < grid.azimuths; ++i) {
+        const bool inside =
+            window.has_row(grid, row) && i >= window.azimuths.begin && i < window.azimuths.end;
+        const size_t node = size_t(row) * grid.azimuths + i;
+        ASSERT_EQ(part->smooth[node], inside ? whole->smooth[node] : glm::vec4(0))
+            << row << ' ' << i;
+        ASSERT_EQ(part->aerosol[node], inside ? whole->aerosol[node] : glm::vec4(0));
+      }
+  }
+}
+
+TEST_P(AnySlice, OfHalfFloatsIsTheTwinsOnRoundedTables) {
+  const auto model = GpuModel::create(context_, *visible_tables(), {.half_source = true});
+  ASSERT_TRUE(model.ok()) << model.error().message;
+  const Twin twin(std::make_shared<const Tables>(rounded_to_half(*visible_tables())));
+  for (const double sun_deg : {20.0, 89.0, 96.0}) {
+    const SliceGrid grid = slice_grid(visible_tables()->medium, 0.5 * km, 13, 18);
+    const auto gl = model->slice(0.5 * km, sun_deg * deg, grid, {});
+    ASSERT_TRUE(gl.ok()) << gl.error().message;
+    const SkySlice judge = twin.slice(0.5 * km, sun_deg * deg, grid, {.ground = true});
+    // As float tables do (compare()): the rounding itself is in both.
+    EXPECT_LT(distance(gl->smooth, judge.smooth), 2e-3) << sun_deg;
+    const auto single = model_->slice(0.5 * km, sun_deg * deg, grid, {});
+    ASSERT_TRUE(single.ok());
+    EXPECT_LT(distance(gl->smooth, single->smooth), 4.9e-4) << sun_deg;
+    EXPECT_NE(gl->smooth, single->smooth);
+  }
+}
+
+TEST_P(AnySlice, TakesTheStepsThatItsModelWasMadeWith) {
+  const SliceGrid grid = slice_grid(visible_tables()->medium, 0.5 * km, 13, 18);
+  for (const int steps : {1, 5, 64}) {
+    const auto model = GpuModel::create(context_, *visible_tables(), {.samples = steps});
+    ASSERT_TRUE(model.ok()) << model.error().message;
+    const auto gl = model->slice(0.5 * km, 70 * deg, grid, {});
+    ASSERT_TRUE(gl.ok()) << gl.error().message;
+    // The view's columns are summed from step to step, which few steps show: 3-point Gauss each.
+    EXPECT_LT(distance(gl->smooth,
+                       Twin(visible_tables())
+                           .slice(0.5 * km, 70 * deg, grid, {.samples = steps, .ground = true})
+                           .smooth),
+              2e-3)
+        << steps;
+  }
 }
 
 TEST_P(AnySlice, WithoutSourceTablesIsSingleScattering) {

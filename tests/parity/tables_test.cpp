@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "parity/twins.h"
+#include "sky/bruneton/sun_range.h"
 
 namespace skylapse::sky::bruneton {
 namespace {
@@ -71,6 +72,25 @@ TEST_P(AnyTables, OfOddSizesAndTwoRangesOfGroupsAreTheTwins) {
   const atmosphere::Medium medium = standard_medium(18);
   expect_alike(value_of(precompute(*context_, medium, odd_settings())),
                precompute_twin(medium, odd_settings()));
+}
+
+TEST_P(AnyTables, OfAPartOfTheSunsAreTheTwins) {
+  const atmosphere::Medium medium = standard_medium(5);
+  for (const auto& [low, high] : {std::pair{20, 50}, {84, 97}, {100, 180}}) {
+    const Settings part = restricted_to({low * deg, high * deg}, odd_settings(), medium);
+    ASSERT_LT(part.suns, odd_settings().suns);
+    expect_alike(value_of(precompute(*context_, medium, part)), precompute_twin(medium, part));
+  }
+}
+
+TEST_P(AnyTables, OfAGivenNumberOfOrdersAreTheTwins) {
+  Settings settings = odd_settings();
+  for (const int orders : {2, 4}) {
+    settings.orders = orders;
+    const Tables gl = value_of(precompute(*context_, standard_medium(3), settings));
+    EXPECT_EQ(gl.orders, orders);
+    expect_alike(gl, precompute_twin(standard_medium(3), settings));
+  }
 }
 
 TEST_P(AnyTables, OfMoreHeightsThanATextureIsDeepAreTheTwins) {

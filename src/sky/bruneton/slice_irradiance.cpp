@@ -7,7 +7,9 @@
 namespace skylapse::sky::bruneton {
 
 SliceGrid irradiance_grid(const atmosphere::Medium& medium, Length height) {
-  return slice_grid(medium, height, 24, 64);
+  // Half of a frame's rows: the more the higher, for the horizon's band of light is thin there.
+  const int zeniths = slice_grid(medium, height).zeniths / 2;
+  return slice_grid(medium, height, 24, zeniths + zeniths % 2);
 }
 
 SliceWindow irradiance_window(const SliceGrid& grid) {

@@ -12,8 +12,11 @@ namespace skylapse::sky::bruneton {
 glm::dvec3 horizontal_irradiance_xyz(const SkySlice& slice);
 
 /// A small slice that is enough for it, whatever the frame's own is and however little of it is
-/// computed: the sky half alone.
+/// computed: the sky half alone, so that the irradiance of a place depends on no camera. Within
+/// kIrradianceSliceError of a slice of 128 x 384, for suns down to -16 deg (bench_economies
+/// irradiance).
 SliceGrid irradiance_grid(const atmosphere::Medium& medium, Length height);
+inline constexpr double kIrradianceSliceError = 2e-3;
 SliceWindow irradiance_window(const SliceGrid& grid);
 
 }  // namespace skylapse::sky::bruneton

@@ -8,7 +8,10 @@
 namespace skylapse::sky::bruneton {
 namespace {
 
-constexpr Angle kBeyondTheHorizon = 10 * deg;
+/// Beyond the horizon's arc: air in view there, and where its light was scattered before.
+constexpr Angle kBeyondTheHorizon = 8 * deg;
+/// What is lit in twilight is lit, over several scatterings, from where the sun still shines.
+constexpr Angle kTwilightSource = 85 * deg;
 
 }  // namespace
 
@@ -39,7 +42,8 @@ SunRange sun_range_for(const atmosphere::Medium& medium, Angle lowest, Angle hig
   const double R = medium.bottom_radius_km, h = std::max(0.0, height.in(km));
   const Angle dip = std::atan2(std::sqrt(h * (2 * R + h)), R) * rad;
   const Angle reach = dip + kBeyondTheHorizon;
-  return {std::max(lowest - reach, 0 * deg), std::min(highest + reach, 180 * deg)};
+  return {std::max(std::min(lowest - reach, kTwilightSource), 0 * deg),
+          std::min(highest + reach, 180 * deg)};
 }
 
 }  // namespace skylapse::sky::bruneton
