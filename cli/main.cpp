@@ -67,6 +67,7 @@ ExitCode run(int argc, char** argv) {
   add_sun_command(app, session);
   add_events_command(app, session);
   add_probe_command(app, session);
+  add_study_command(app, session);
   add_sheet_command(app, session);
   add_movie_command(app, session);
   add_doctor_command(app, session);

@@ -11,6 +11,7 @@
 #include "config/time_expression.h"
 #include "plan/effect_planner.h"
 #include "plan/effects/calibrated_bounds.h"
+#include "plan/baseline_of_frame.h"
 #include "plan/exposure_plan.h"
 #include "plan/path_template.h"
 #include "plan/sky_of_frame.h"
@@ -223,6 +224,8 @@ Result<Plan, Diagnostics> make_plan(config::JobConfig job, const EffectRules& ru
   note_low_sites(plan);
   const Status added = add_frames(plan, *schedule, skies);
   if (!added) return Diagnostics{added.error()};
+  const Status known = check_baseline(plan);
+  if (!known) return Diagnostics{known.error()};
   decide_for_the_job(plan);
   for (size_t o = 0; o < plan.job.outputs.size(); ++o) number_paths(plan, o);
   if (auto collision = find_collision(plan)) return Diagnostics{*collision};
