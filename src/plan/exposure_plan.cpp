@@ -7,6 +7,7 @@
 
 #include "color/exposure.h"
 #include "core/constants.h"
+#include "plan/baseline_of_frame.h"
 #include "plan/sky_of_frame.h"
 #include "sky/bruneton/twin.h"
 #include "sky/twilight.h"
@@ -95,6 +96,11 @@ Result<Luminance> SkyMeter::read(const Frame& frame) {
   const auto luminance = [&](double sky_y) {
     return kLuminousEfficacy * sky_y * level / std::numbers::pi * cd_per_m2;
   };
+  if (is_baseline(plan_.model)) {
+    const auto sky = baseline_of_frame(plan_.job, plan_.model, frame);
+    if (!sky) return sky.error();
+    return luminance(sky::dome_irradiance(sky->dome).y);
+  }
   if (is_fitted(plan_.model)) {
     const auto sky = sky_of_frame(plan_.job, frame);
     if (!sky) return sky.error();

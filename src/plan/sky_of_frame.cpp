@@ -1,6 +1,7 @@
 #include "plan/sky_of_frame.h"
 
 #include "core/constants.h"
+#include "plan/baseline_of_frame.h"
 
 namespace skylapse::plan {
 
@@ -12,6 +13,7 @@ sky::AlbedoSpectrum ground_of_frame(const config::JobConfig& job, const Frame& f
 }
 
 Result<Illuminance> sky_at_horizon(const config::JobConfig& job, int turbidity, int albedo) {
+  if (is_baseline(job.sky.model)) return Illuminance{};
   Frame frame;
   frame.turbidity = turbidity, frame.albedo = albedo;
   frame.sky.sun_radius = kSolarRadiusAt1Au;

@@ -8,7 +8,8 @@ namespace skylapse::plan {
 /// size. Radiances still have to be multiplied by SunForSky's factors.
 Result<sky::hosek_wilkie::Sky> sky_of_frame(const config::JobConfig& job, const Frame& frame);
 
-/// Illuminance by the sky alone at sun elevation 0, for an air and ground of the job.
+/// Illuminance by the Hosek-Wilkie sky alone at sun elevation 0, for an air and ground of the job;
+/// 0 for a baseline, which nothing continues below the horizon.
 Result<Illuminance> sky_at_horizon(const config::JobConfig& job, int turbidity, int albedo);
 
 /// Ground reflectance of the frame, in the model's bands.

@@ -79,6 +79,8 @@ double fitted_zenith(int type, double turbidity, Angle sun_elevation) {
          0.7 * (turbidity + 1) * std::pow(sine, fit.c) / std::pow(cosine, fit.d) + 0.04 * turbidity;
 }
 
+}  // namespace
+
 Status check(int type, double turbidity, Angle sun_elevation) {
   const auto refuse = [](std::string message, std::string hint) {
     return Error{ErrorCode::invalid_input, std::move(message), {}, std::move(hint)};
@@ -94,8 +96,6 @@ Status check(int type, double turbidity, Angle sun_elevation) {
         "allowed: 0 to 90 deg of elevation");
   return Done{};
 }
-
-}  // namespace
 
 double typical_turbidity(int type) {
   assert(type > 6 && type <= kTypes);

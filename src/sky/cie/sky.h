@@ -21,6 +21,10 @@ inline constexpr double kLowestTurbidity = 1, kHighestTurbidity = 12;
 /// L / Lz = f(chi) phi(z) / (f(zs) phi(0)); `cos_zenith` below 0 counts as 0.
 double relative_luminance(int type, double cos_zenith, Angle chi, Angle sun_zenith);
 
+/// Errors (invalid_input): type outside 1..15, turbidity outside 1..12 (types 7 to 15), sun
+/// elevation outside 0..90 deg, NaN in any of them.
+Status check(int type, double turbidity, Angle sun_elevation);
+
 /// Luminance of the zenith, of a sun from the horizon to the zenith.
 ///   covered types  the sky's illuminance, a share of the sun's above the air (133.8 klx times the
 ///                  sine of its elevation) that the table gives, over that of the relative sky
@@ -28,8 +32,7 @@ double relative_luminance(int type, double cos_zenith, Angle chi, Angle sun_zeni
 /// Source   Kittler, Perez & Darula 1998; Darula & Kittler 2002.
 /// Changes  the second formula grows without bound towards the zenith and was made for suns up to
 ///          75 deg: above, the sky keeps the share of the sun's illuminance that it has there.
-/// Errors (invalid_input): type outside 1..15, turbidity outside 1..12 (types 7 to 15), sun
-/// elevation outside 0..90 deg.
+/// Errors: those of check().
 Result<Luminance> zenith_luminance(int type, double turbidity, Angle sun_elevation);
 
 /// Horizontal illuminance of a sky over its zenith luminance [sr], within 1e-3.
