@@ -3,7 +3,9 @@
 #include "config/air_conversion.h"
 #include "config/build_job.h"
 #include "config/haze.h"
+#include "config/words.h"
 #include "sky/atmosphere/input_spectra.h"
+#include "sky/cie/sky.h"
 
 namespace skylapse::config {
 namespace {
@@ -66,7 +68,7 @@ struct AtmosphereKey {
   bool in_use;
 };
 
-/// Keys of `air` whose values Hosek-Wilkie knows nothing of.
+/// Keys of `air` whose values the fitted models know nothing of.
 std::vector<AtmosphereKey> atmosphere_keys(const Section& air, const AirDescription& d) {
   const AirDescription plain;
   return {
@@ -93,7 +95,8 @@ void note_atmosphere_keys(const Section& section, SkyModel model, Air& air,
     const Place place = section.field(key.key)->key_place;
     if (is_fitted(model) && (key.key == "preset" || !section.has("preset")))
       context.errors.add(
-          place, fmt::format("{} means nothing to the Hosek-Wilkie sky", section.path_of(key.key)),
+          place,
+          fmt::format("{} means nothing to {}", section.path_of(key.key), fitted_name(model)),
           "use sky.model bruneton, single-scattering or auto");
     if (!air.needs_atmosphere)
       air.needs_atmosphere =
@@ -106,6 +109,12 @@ void read_haze(const Section& section, const HazeReader& haze, Air& air,
   std::vector<Spanned<double>> turbidities;
   for (const std::string_view key : kHazeKeys)
     for (const Value& value : section.values(key)) {
+      if (haze.is_covered()) {
+        context.errors.add(section.field(key)->key_place,
+                           fmt::format("{} means nothing to a covered sky", section.path_of(key)),
+                           "sky.cie_type 7 to 15 are skies with the sun in them");
+        break;
+      }
       const auto turbidity = haze.turbidity(section, key, value);
       if (!turbidity) continue;
       turbidities.push_back({*turbidity, context.sources.span(value.place)});
@@ -141,12 +150,14 @@ void read_refraction(const Section& section, Air& air) {
 Air build_air(const Section& root, const std::vector<Site>& sites, const ReadContext& context) {
   Air air;
   const auto section = only_section(root, "air");
+  if (sky_model(root) == SkyModel::cie && !sky::cie::is_covered(cie_type(root)))
+    air.turbidity = {{sky::cie::typical_turbidity(cie_type(root)), {}}};
   if (section) {
     const SkyModel model = sky_model(root);
     air.description = description_of(*section);
     check_layers(*section, air.description, context);
     note_atmosphere_keys(*section, model, air, context);
-    read_haze(*section, {air.description, model, context}, air, context);
+    read_haze(*section, {air.description, model, cie_type(root), context}, air, context);
     read_grounds(*section, air, context);
     read_refraction(*section, air);
   }

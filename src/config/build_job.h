@@ -12,6 +12,8 @@ TimePlan build_time(const Section& root, const std::vector<Site>& sites,
 
 /// The model that the config asks for.
 SkyModel sky_model(const Section& root);
+/// The CIE sky that it asks for, if it does.
+int cie_type(const Section& root);
 /// `sites` decide whether keyframes without an offset have a zone.
 Air build_air(const Section& root, const std::vector<Site>& sites, const ReadContext& context);
 Sky build_sky(const Section& root, const ReadContext& context);

@@ -15,6 +15,12 @@ SkyModel sky_model(const Section& root) {
   return word ? *value_of(kSkyModelWords, *word) : SkyModel::automatic;
 }
 
+int cie_type(const Section& root) {
+  const auto section = only_section(root, "sky");
+  const auto type = section ? section->get<long>("cie_type") : std::nullopt;
+  return type ? int(*type) : Sky{}.cie_type;
+}
+
 namespace {
 
 /// The models that know a key.

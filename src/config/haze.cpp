@@ -6,25 +6,27 @@
 
 #include "config/air_conversion.h"
 #include "config/build_job.h"
+#include "config/words.h"
+#include "sky/cie/sky.h"
+#include "sky/preetham/sky.h"
 
 namespace skylapse::config {
 namespace {
-
-constexpr double kLowestTurbidity = 1, kHighestTurbidity = 10;
 
 std::string length_text(Length length) {
   return length < 1.0 * km ? fmt::format("{:.0f} m", length.in(metre))
                            : fmt::format("{:.0f} km", length.in(km));
 }
 
-/// The range of Hosek-Wilkie's turbidities in the terms of a key, rounded inwards.
-std::string hosek_wilkie_range(std::string_view key) {
+/// A range of turbidities in the terms of a key, rounded inwards.
+std::string range_text(const TurbidityRange& range, std::string_view key) {
   if (key == "visibility")
     return fmt::format("{:.2f} km to {:.0f} km",
-                       visibility_from_turbidity(kHighestTurbidity).in(km) + 0.005,
-                       visibility_from_turbidity(kLowestTurbidity).in(km)-0.5);
-  return fmt::format("{:.4f} to {:.3f}", aerosol_depth_from_turbidity(kLowestTurbidity) + 5e-5,
-                     aerosol_depth_from_turbidity(kHighestTurbidity) - 5e-4);
+                       visibility_from_turbidity(range.highest).in(km) + 0.005,
+                       visibility_from_turbidity(range.lowest).in(km)-0.5);
+  if (key == "turbidity") return fmt::format("{} to {}", range.lowest, range.highest);
+  return fmt::format("{:.4f} to {:.3f}", aerosol_depth_from_turbidity(range.lowest) + 5e-5,
+                     aerosol_depth_from_turbidity(range.highest) - 5e-4);
 }
 
 /// Whether times without an offset have a zone, at every site.
@@ -37,17 +39,29 @@ bool zone_is_known(const Section& root, const std::vector<Site>& sites) {
 
 }  // namespace
 
+TurbidityRange turbidity_range(SkyModel model) {
+  if (model == SkyModel::preetham)
+    return {sky::preetham::kLowestTurbidity, sky::preetham::kHighestTurbidity};
+  if (model == SkyModel::cie) return {sky::cie::kLowestTurbidity, sky::cie::kHighestTurbidity};
+  return {};
+}
+
 bool within_hosek_wilkie(double turbidity) {
-  return turbidity >= kLowestTurbidity && turbidity <= kHighestTurbidity;
+  const TurbidityRange range = turbidity_range(SkyModel::hosek_wilkie);
+  return turbidity >= range.lowest && turbidity <= range.highest;
+}
+
+bool HazeReader::is_covered() const {
+  return model == SkyModel::cie && sky::cie::is_covered(cie_type);
 }
 
 std::optional<double> HazeReader::turbidity(const Section& section, std::string_view key,
                                             const Value& value) const {
   const double number = std::get<double>(value.data);
-  if (key == "turbidity") return number;
-  const double depth =
-      key == "visibility" ? aerosol_depth_from_visibility(number * metre, air) : number;
-  if (depth < 0) {
+  const double depth = key == "turbidity"    ? aerosol_depth_from_turbidity(number)
+                       : key == "visibility" ? aerosol_depth_from_visibility(number * metre, air)
+                                             : number;
+  if (depth < 0 && key != "turbidity") {
     context.errors.add(value.place,
                        fmt::format("{} is beyond that of air without haze", section.path_of(key)),
                        fmt::format("allowed: 200 m to {}", length_text(greatest_visibility(air))));
@@ -60,13 +74,14 @@ std::optional<double> HazeReader::turbidity(const Section& section, std::string_
         fmt::format("allowed: at most {}", sky::atmosphere::kMaxAerosolOpticalDepth));
     return std::nullopt;
   }
-  const double turbidity = turbidity_from_aerosol_depth(depth);
-  if (within_hosek_wilkie(turbidity) || !is_fitted(model)) return turbidity;
-  context.errors.add(
-      value.place,
-      fmt::format("{} is turbidity {:.3g}, beyond the Hosek-Wilkie sky", section.path_of(key),
-                  turbidity),
-      fmt::format("allowed: {}; or use sky.model bruneton", hosek_wilkie_range(key)));
+  const double turbidity = key == "turbidity" ? number : turbidity_from_aerosol_depth(depth);
+  const TurbidityRange range = turbidity_range(model);
+  if (!is_fitted(model) || (turbidity >= range.lowest && turbidity <= range.highest))
+    return turbidity;
+  context.errors.add(value.place,
+                     fmt::format("{} is turbidity {:.3g}, beyond {}", section.path_of(key),
+                                 turbidity, fitted_name(model)),
+                     fmt::format("allowed: {}; or use sky.model bruneton", range_text(range, key)));
   return std::nullopt;
 }
 
@@ -74,7 +89,7 @@ std::vector<AirKeyframe> build_keyframes(const Section& root, const Section& sec
                                          const Air& air, const std::vector<Site>& sites,
                                          const ReadContext& context) {
   std::vector<AirKeyframe> keyframes;
-  const HazeReader haze{air.description, sky_model(root), context};
+  const HazeReader haze{air.description, sky_model(root), cie_type(root), context};
   const bool zone_known = zone_is_known(root, sites);
   for (const auto& written : section.sections("keyframes")) {
     const auto time = written->get<TimeExpression>("time");

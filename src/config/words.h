@@ -23,6 +23,13 @@ inline constexpr Words<SkyModel, 8> kSkyModelWords{
      {"bruneton", SkyModel::bruneton},
      {"reference", SkyModel::reference}}};
 
+/// A fitted model in a sentence: "the Preetham sky".
+constexpr std::string_view fitted_name(SkyModel model) {
+  return model == SkyModel::preetham ? "the Preetham sky"
+         : model == SkyModel::cie    ? "the CIE general sky"
+                                     : "the Hosek-Wilkie sky";
+}
+
 inline constexpr Words<SkyPrecision, 3> kPrecisionWords{{{"half", SkyPrecision::half},
                                                          {"float", SkyPrecision::single},
                                                          {"double", SkyPrecision::full}}};

@@ -231,6 +231,29 @@ TEST(AirErrors, KeysThatADemandedModelMakesNothingOf) {
             "hosek-wilkie-gl");
 }
 
+TEST(AirErrors, EachFittedModelIsNamedWithItsRange) {
+  EXPECT_EQ(error_after("air: {ozone: 350 DU}\nsky: {model: preetham}\n"),
+            "5 [ozone] air.ozone means nothing to the Preetham sky | use sky.model bruneton, "
+            "single-scattering or auto");
+  EXPECT_EQ(error_after("air: {turbidity: 1.5}\nsky: {model: preetham}\n"),
+            "5 [1.5] air.turbidity is turbidity 1.5, beyond the Preetham sky | allowed: 1.7 to 10; "
+            "or use sky.model bruneton");
+  EXPECT_THAT(error_after("air: {visibility: 2 km}\nsky: {model: cie}\n"),
+              HasSubstr("is turbidity 24.3, beyond the CIE general sky"));
+  EXPECT_EQ(error_after("air: {turbidity: 3}\nsky: {model: cie, cie_type: 2}\n"),
+            "5 [turbidity] air.turbidity means nothing to a covered sky | sky.cie_type 7 to 15 are "
+            "skies with the sun in them");
+  EXPECT_EQ(error_after("sky: {model: cie, cie_type: 16}\n"),
+            "5 [16] sky.cie_type = 16 is out of range | allowed: 1 to 15");
+}
+
+TEST(AirOfAJob, ACieSkyHasTheTurbidityOfItsType) {
+  EXPECT_EQ(job_with("sky: {model: cie}\n").air.turbidity[0].value, 2.5);
+  EXPECT_EQ(job_with("sky: {model: cie, cie_type: 14}\n").air.turbidity[0].value, 5);
+  EXPECT_EQ(
+      job_with("air: {turbidity: 3}\nsky: {model: cie, cie_type: 14}\n").air.turbidity[0].value, 3);
+}
+
 TEST(Keyframes, KeepTheirTimesAndTakeTheRestFromTheAir) {
   const Air air = job_with(
                       "air:\n"
