@@ -80,6 +80,16 @@ Sums multiple_scattering(SliceRow row, SunOfRay sun, Sums sums) {
   return sums;
 }
 
+// Fetched and not filtered: a filter's rounding reaches for the profiles of other rays, which need
+// not be there.
+vec3 profile_at(int piece, float s) {
+  int last = textureSize(profiles, 0).x - 1;
+  float x = s * float(last);
+  int node = min(int(x), last - 1);
+  return mix(texelFetch(profiles, ivec2(node, piece), 0),
+             texelFetch(profiles, ivec2(node + 1, piece), 0), x - float(node)).xyz;
+}
+
 bool is_cut(Ray ray, vec2 places) {
   return (places.x > 0.0 && places.x < ray.length) || (places.y > 0.0 && places.y < ray.length);
 }
@@ -105,11 +115,10 @@ Sums shadowed_scattering(SliceRow row, SunOfRay sun, vec2 shadow, Sums sums) {
       float away = (end - begin) * node.x * node.x;
       float t = rising ? begin + away : end - away;
       float s = sqrt(clamp((rising ? t - piece_begin : piece_end - t) / (piece_end - piece_begin), 0.0, 1.0));
-      vec2 at = vec2(s * float(textureSize(profiles, 0).x - 1), float(row.first_piece + piece));
       float h = height_along(ray.height, ray.mu, t);
       float mu_s = (radius_of(ray.height) * sun.mu_s + t * sun.nu) / radius_of(h);
       vec3 amount = densities(h) * (2.0 * node.x * node.y * (end - begin));
-      sums = add_sunlight(sums, h, clamp(mu_s, -1.0, 1.0), filtered(profiles, at).xyz,
+      sums = add_sunlight(sums, h, clamp(mu_s, -1.0, 1.0), profile_at(row.first_piece + piece, s),
                           amount.x, amount.y);
     }
     if (end >= piece_end) {

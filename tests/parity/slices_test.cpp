@@ -116,7 +116,7 @@ TEST_P(AnySlice, APartHasTheBitsOfTheWholeAndNothingElse) {
         const size_t node = size_t(row) * grid.azimuths + i;
         ASSERT_EQ(part->smooth[node], inside ? whole->smooth[node] : glm::vec4(0))
             << row << ' ' << i;
-        ASSERT_EQ(part->aerosol[node], inside ? whole->aerosol[node] : glm::vec4(0));
+        EXPECT_EQ(part->aerosol[node], inside ? whole->aerosol[node] : glm::vec4(0));
       }
   }
 }

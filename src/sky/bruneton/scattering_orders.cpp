@@ -30,9 +30,13 @@ ScatteringOrders::ScatteringOrders(const Columns& columns, const Settings& setti
   data_.columns = columns.nodes().data();
   data_.groups = {data_.groups.begin() + first_group, data_.groups.begin() + first_group + count};
   for (int j = 0; j < settings.suns; ++j) sun_mu_.push_back(std::cos(suns_.zenith_rad(j)));
-  Geometry text(data_);
+  // sun_row_of of coordinates.glsl before it is clamped: interpolation would round the corners.
+  const text::AirParameters& air = data_.air;
   for (int i = 0; i <= kZenithSteps; ++i)
-    row_of_zenith_.push_back(text.sun_row_of(std::cos(text::PI * i / kZenithSteps)));
+    row_of_zenith_.push_back(
+        (air.sun_first -
+         std::asinh((air.sun_centre - text::PI * i / kZenithSteps) / air.sun_width)) *
+        air.sun_rows_per_unit);
 
   std::vector<double> directions, table;
   for (int a = 0; a < settings.azimuths; ++a) {
@@ -60,7 +64,9 @@ ScatteringOrders::ScatteringOrders(const Columns& columns, const Settings& setti
 double ScatteringOrders::sun_row(double mu_s) const {
   const double x = std::acos(std::clamp(mu_s, -1.0, 1.0)) * (kZenithSteps / text::PI);
   const int node = std::min(int(x), kZenithSteps - 1);
-  return row_of_zenith_[node] + (x - node) * (row_of_zenith_[node + 1] - row_of_zenith_[node]);
+  const double row =
+      row_of_zenith_[node] + (x - node) * (row_of_zenith_[node + 1] - row_of_zenith_[node]);
+  return std::clamp(row, 0.0, data_.air.sun_row_last);
 }
 
 glm::dvec4 ScatteringOrders::weight(const std::vector<double>& weights, size_t item,
