@@ -216,7 +216,11 @@ Diagnostics batch_errors(const CsvTable& table, Diagnostics errors) {
 }
 
 std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  // Blanks at the ends are dropped by readers, and a line that begins with '#' is a remark.
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  const bool plain = text.find_first_of(",\"\n\r") == std::string::npos && !text.starts_with('#') &&
+                     (text.empty() || (!blank(text.front()) && !blank(text.back())));
+  if (plain) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + '"';

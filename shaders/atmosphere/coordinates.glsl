@@ -79,7 +79,7 @@ Real sun_row_of(Real mu_s) {
 
 // Azimuths of a direction from the sun's are uniform, by the angle between both: cosine nu.
 Real azimuth_coordinate(Real mu, Real mu_s, Real nu) {
-  Real sines = sqrt(max((1.0 - mu * mu) * (1.0 - mu_s * mu_s), Real(0.0)));
+  Real sines = sqrt(max((1.0 - mu) * (1.0 + mu) * (1.0 - mu_s) * (1.0 + mu_s), Real(0.0)));
   Real cosine = sines > 1e-9 ? (nu - mu * mu_s) / sines : Real(1.0);
   return acos(clamp(cosine, Real(-1.0), Real(1.0))) * (air.azimuth_last / PI);
 }

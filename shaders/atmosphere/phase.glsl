@@ -6,9 +6,10 @@
 Real rayleigh_phase(Real nu) { return air.rayleigh_constant + air.rayleigh_quadratic * nu * nu; }
 
 // Cornette-Shanks (Bruneton and Neyret 2008, Eq. 4). The denominator 1 + g^2 - 2 g nu is written as
-// (1 - g)^2 + 2 g (1 - nu), which keeps its digits for g near 1 straight ahead.
+// (1 - |g|)^2 + 2 |g| (1 - cosine), the cosine being from the peak: that keeps its digits there.
 Real aerosol_phase(Real nu) {
-  Real g = air.aerosol_g;
-  Real d = (1.0 - g) * (1.0 - g) + 2.0 * g * (1.0 - nu);
+  Real g = abs(air.aerosol_g);
+  Real cosine = air.aerosol_g < 0.0 ? -nu : nu;
+  Real d = (1.0 - g) * (1.0 - g) + 2.0 * g * (1.0 - cosine);
   return air.aerosol_norm * (1.0 + nu * nu) / (d * sqrt(d));
 }

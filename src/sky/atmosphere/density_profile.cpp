@@ -63,9 +63,9 @@ double term_column(const DensityTerm& t, double top_km) {
   cuts.insert(cuts.begin(), from);
   cuts.push_back(to);
   double sum = 0;
+  // A piece has one sign, which its integral shows: densities within it may underflow.
   for (size_t i = 0; i + 1 < cuts.size(); ++i)
-    if (raw(t, cuts[i] + (cuts[i + 1] - cuts[i]) / 2) > 0)
-      sum += raw_column(t, cuts[i], cuts[i + 1]);
+    sum += std::max(raw_column(t, cuts[i], cuts[i + 1]), 0.0);
   return sum;
 }
 

@@ -15,7 +15,7 @@ bool enter(text::Ray& ray, double R, double H, double h, double mu) {
   if (mu >= 0 || d <= 0) return false;
   ray.skipped = (h - H) * (2 * R + h + H) / (-b + std::sqrt(d));
   ray.height = H;
-  ray.mu = -std::sqrt(d) / (R + H);
+  ray.mu = std::max(-std::sqrt(d) / (R + H), -1.0);  // straight down it may round past -1
   return true;
 }
 

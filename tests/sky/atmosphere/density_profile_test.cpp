@@ -56,6 +56,14 @@ TEST(DensityProfile, ColumnOfAnExponentialIsExact) {
   EXPECT_NEAR(tent_profile(10.0 * km, 25.0 * km, 40.0 * km).vertical_column_km(100), 15, 1e-13);
 }
 
+/// A sweep's finding: in the middle of a column 1500 scale heights long exp() is 0, and the whole
+/// column was left out.
+TEST(DensityProfile, ColumnOfThinAirIsExactThroughUnderflow) {
+  const auto profile = exponential_profile(10.0 * metre, 100.0 * km);
+  for (const double top : {1.0, 10.0, 30.0, 57.0, 100.0})
+    EXPECT_NEAR(profile.vertical_column_km(top), 0.01, 1e-16) << top;
+}
+
 TEST(DensityProfile, IsZeroOutsideItsTermsAndNeverNegative) {
   const DensityProfile tent = tent_profile(10.0 * km, 25.0 * km, 40.0 * km);
   EXPECT_EQ(tent.at(9.999), 0);
