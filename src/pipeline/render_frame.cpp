@@ -5,6 +5,18 @@
 #include "plan/effect_planner.h"
 
 namespace skylapse::pipeline {
+namespace {
+
+/// The disc with the effects that the plan takes.
+sky::SunDisc disc_with(sky::EffectSet effects, const plan::Frame& frame, sky::SunDisc disc) {
+  if (effects.has(sky::Effect::flattening)) disc.flattening = frame.sun_flattening;
+  if (!effects.has(sky::Effect::limb_darkening))
+    disc.radiance = sky::without_limb_darkening(disc.radiance);
+  return disc;
+}
+
+}  // namespace
+
 Result<RenderedFrame> render_frame(const plan::Plan& plan, const plan::Frame& frame,
                                    AtmosphereService& atmospheres, bool keep_without_disc,
                                    StageTimes& times, const std::function<bool(double)>& progress) {
@@ -31,14 +43,16 @@ Result<RenderedFrame> render_frame(const plan::Plan& plan, const plan::Frame& fr
   }
   if (keep_without_disc) out.scene_without_disc = out.scene;
 
-  const sky::DiscEnergy energy = sky::disc_energy(sky->disc);
+  const sky::EffectSet effects = plan::effects_of(plan, frame);
+  const sky::SunDisc disc = disc_with(effects, frame, sky->disc);
+  const sky::DiscEnergy energy = sky::disc_energy(disc);
   out.sun_irradiance_xyz = energy.horizontal_irradiance;
   out.sun_normal_irradiance_xyz = energy.normal_irradiance;
-  if (plan::effects_of(plan, frame).has(plan::Effect::sun_disc)) {
+  if (effects.has(sky::Effect::sun_disc)) {
     const StageTimer timer(times, Stage::disc);
-    sky::SunDisc in_rgb = sky->disc;
+    sky::SunDisc in_rgb = disc;
     in_rgb.radiance = [&](Angle view_elevation, double limb) {
-      return glm::max(xyz_to_rgb * sky->disc.radiance(view_elevation, limb), 0.0);
+      return glm::max(xyz_to_rgb * disc.radiance(view_elevation, limb), 0.0);
     };
     sky::add_sun_disc(camera, in_rgb, out.scene);
   }

@@ -11,14 +11,20 @@
 
 namespace skylapse::sky {
 
+/// Radiance over a disc per output channel at a view elevation from the horizon to 90 deg and the
+/// limb variable m = sqrt(1 - (sin gamma / sin radius)^2): 1 in the middle, 0 at the limb. Finite;
+/// channels may be negative (a red sun outside the gamut).
+using DiscRadiance = std::function<glm::dvec3(Angle view_elevation, double limb_m)>;
+
+/// The same light without limb darkening: at each elevation the mean over the disc, 2 m dm being
+/// the share of its area. Exact to 1e-6 for powers m^alpha from alpha 0 on.
+DiscRadiance without_limb_darkening(const DiscRadiance& radiance);
+
 /// A disc on the sky, cut by the horizon.
 struct SunDisc {
   Direction<Enu> centre;  // as seen: refracted, if refraction is on
   Angle radius;           // in (0, 10] deg
-  /// Radiance per output channel at a view elevation from the horizon to 90 deg and the limb
-  /// variable m = sqrt(1 - (sin gamma / sin radius)^2): 1 in the middle, 0 at the limb. Finite;
-  /// channels may be negative (a red sun outside the gamut).
-  std::function<glm::dvec3(Angle view_elevation, double limb_m)> radiance;
+  DiscRadiance radiance;
   /// Elevation of the horizon, in (-90, 0] deg: minus the dip of a camera above the ground.
   Angle horizon{};
   /// Height over width, in (0, 1]: the air lifts the lower limb of a low sun more than the upper.

@@ -161,6 +161,19 @@ DiscEnergy energy_of_dipped_cut(const SunDisc& disc) {
 
 }  // namespace
 
+DiscRadiance without_limb_darkening(const DiscRadiance& radiance) {
+  // With m = u^2 the power u^(2 alpha + 3) is smooth enough for few nodes.
+  static const GaussLegendre<12> rule;
+  return [radiance](Angle view_elevation, double) {
+    glm::dvec3 mean{0};
+    for (size_t i = 0; i < rule.nodes.size(); ++i) {
+      const double u = 0.5 * (1 + rule.nodes[i]), m = u * u;
+      mean += 0.5 * rule.weights[i] * 4 * u * m * radiance(view_elevation, m);
+    }
+    return mean;
+  };
+}
+
 double haversine_in_disc(const SunDisc& disc, const Direction<Enu>& direction) {
   const glm::dvec3 c = disc.centre.vec(), up = up_at(disc.centre), d = direction.vec();
   const double sin_lambda = std::clamp(glm::dot(d, glm::cross(c, up)), -1.0, 1.0);
