@@ -11,6 +11,7 @@
 #include "output/atomic_file.h"
 #include "output/sun_policy.h"
 #include "pipeline/movie_pass.h"
+#include "pipeline/promise_json.h"
 #include "plan/effect_planner.h"
 
 namespace skylapse::pipeline {
@@ -231,6 +232,7 @@ ordered_json head_json(const JobContext& job) {
           {"color", color_json(config)},
           {"model", plan::name_of(job.plan.model)},
           {"model_reason", job.plan.model_reason},
+          {"promise", promise_json(job.plan)},
           {"atmosphere", atmosphere_json(job)},
           {"notes", job.plan.notes},
           {"movies", movies},

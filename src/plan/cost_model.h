@@ -18,4 +18,8 @@ struct Cost {
 /// pictures by their detail: expect a factor of 2 either way.
 Cost estimate_cost(const Plan& plan, const std::vector<long>& frames);
 
+/// Core seconds of the pixels of one picture and of its files: what any model costs beside its
+/// tables and slices.
+double picture_seconds(const config::JobConfig& job, const image::Camera& camera);
+
 }  // namespace skylapse::plan

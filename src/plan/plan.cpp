@@ -9,6 +9,7 @@
 #include "astro/refraction.h"
 #include "config/path_template.h"
 #include "config/time_expression.h"
+#include "plan/accuracy_choice.h"
 #include "plan/effect_planner.h"
 #include "plan/effects/calibrated_bounds.h"
 #include "plan/baseline_of_frame.h"
@@ -100,8 +101,19 @@ std::vector<astro::SkyState> sky_states(const config::JobConfig& job, const Sche
 
 /// The model, and the suns that go with it: only high sites, which rule Hosek-Wilkie out, have
 /// another refraction in another model.
-std::vector<astro::SkyState> choose_model_and_suns(Plan& plan, const Schedule& schedule) {
+Result<std::vector<astro::SkyState>, Diagnostics> choose_model_and_suns(Plan& plan,
+                                                                        const Schedule& schedule) {
   auto skies = sky_states(plan.job, schedule, plan.job.sky.model);
+  if (plan.job.sky.accuracy || plan.job.sky.time_budget) {
+    auto choice = choose_rung({plan.job, plan.air, schedule, skies});
+    if (!choice) return Diagnostics{choice.error()};
+    plan.job.sky = choice->sky;
+    plan.model = choice->sky.model;
+    plan.model_reason = fmt::format("{}: the way to keep sky.{}", choice->promise.taken.name,
+                                    choice->promise.accuracy ? "accuracy" : "time_budget");
+    plan.promise = std::move(choice->promise);
+    return skies;
+  }
   const ModelChoice choice = choose_model(plan.job, schedule, skies);
   plan.model = choice.model;
   plan.model_reason = name_of(choice.model) + ": " + choice.reason;
@@ -131,6 +143,8 @@ void ask_model(const Plan& plan, Illuminance sky_at_horizon, Frame& frame) {
   refract(plan, frame);
   if (is_fitted(plan.model)) {
     frame.sun = sun_for_sky(frame.sky, job.air.refraction, sky_at_horizon);
+    if (frame.sun.extrapolated && !is_on(plan, frame, Effect::twilight_continuation))
+      frame.sun.twilight_level = 0;
     return;
   }
   frame.sun = sun_for_atmosphere(frame.sky);
@@ -221,8 +235,9 @@ Result<Plan, Diagnostics> make_plan(config::JobConfig job, const EffectRules& ru
   if (!air) return air.error();
   plan.air = *std::move(air);
   const auto skies = choose_model_and_suns(plan, *schedule);
+  if (!skies) return skies.error();
   note_low_sites(plan);
-  const Status added = add_frames(plan, *schedule, skies);
+  const Status added = add_frames(plan, *schedule, *skies);
   if (!added) return Diagnostics{added.error()};
   const Status known = check_baseline(plan);
   if (!known) return Diagnostics{known.error()};

@@ -1,6 +1,7 @@
 #pragma once
 // The whole job before anything is rendered: frames, sun, exposure, paths. Pure: the same config
 // gives the same plan, whoever makes it.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "plan/effects/reach.h"
 #include "plan/effects/rule.h"
 #include "plan/frame_schedule.h"
+#include "plan/promise.h"
 #include "plan/sky_model.h"
 #include "plan/sun_for_sky.h"
 
@@ -38,7 +40,8 @@ struct Plan {
   std::vector<std::string> notes;
   config::SkyModel model = config::SkyModel::hosek_wilkie;  // of all frames; never `automatic`
   std::string model_reason;                                 // why that one
-  AirTimeline air;                                          // the air's keyframes in time
+  std::optional<Promise> promise;  // what sky.accuracy or sky.time_budget led to
+  AirTimeline air;                 // the air's keyframes in time
   // What decisions on effects rest on (effect_planner.h).
   const EffectRules* rules = &standard_rules();
   std::vector<ViewReach> views;    // of each camera
