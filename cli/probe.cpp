@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/csv.h"
 #include "cli/probe_atmosphere.h"
+#include "cli/probe_baseline.h"
 #include "cli/table.h"
 #include "config/quantity_parser.h"
 #include "core/frames.h"
@@ -14,7 +15,7 @@ namespace {
 
 namespace hw = sky::hosek_wilkie;
 
-/// All options; Hosek-Wilkie takes the model and the batch alone.
+/// All options; the fitted models take the model and the batch alone.
 using ProbeArguments = AtmosphereProbeArguments;
 
 Result<Angle> angle_cell(const CsvTable& table, size_t row, const std::string& column) {
@@ -86,9 +87,12 @@ Result<std::vector<Cell>> answered_row(const CsvTable& table, size_t row) {
 
 ExitCode run_probe(const ProbeArguments& arguments, const ConsoleOptions& console) {
   if (is_atmosphere_model(arguments.model)) return run_atmosphere_probe(arguments, console);
+  if (is_baseline_model(arguments.model))
+    return run_baseline_probe(arguments.model, arguments.batch, console);
   if (arguments.model != "hosek-wilkie")
     return report(option_error("--model", fmt::format("'{}' is unknown", arguments.model),
-                               "allowed: hosek-wilkie, bruneton, single-scattering, reference"));
+                               "allowed: preetham, cie, hosek-wilkie, bruneton, single-scattering, "
+                               "reference"));
   const auto input = read_csv(arguments.batch);
   if (!input) return report(input.error());
   const Status complete =
@@ -113,12 +117,12 @@ void add_probe_command(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<ProbeArguments>();
   command
       ->add_option("--model", arguments->model,
-                   "hosek-wilkie, bruneton, single-scattering, reference")
+                   "preetham, cie, hosek-wilkie, bruneton, single-scattering, reference")
       ->required();
   command
       ->add_option("--batch", arguments->batch,
                    "CSV with turbidity,albedo,sun_elevation_deg,view_zenith_deg,"
-                   "relative_azimuth_deg,band,kind[,gamma_deg]; of the other models "
+                   "relative_azimuth_deg,band,kind[,gamma_deg|,cie_type]; of the atmospheres "
                    "sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,altitude_m,wavelength_nm; "
                    "- is standard input")
       ->required();

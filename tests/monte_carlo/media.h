@@ -22,6 +22,15 @@ inline atmosphere::Medium slab(double depth, double albedo) {
   return medium;
 }
 
+/// A layer 1 km thick of droplets that only scatter, over a black ground.
+inline atmosphere::Medium cloud(double depth) {
+  atmosphere::Medium medium = slab(0, 0);
+  medium.aerosol.terms = {{.top_km = 1, .constant = 1}};
+  medium.aerosol_g = 0.85;
+  medium.bands[0].aerosol_scattering_per_km = medium.bands[0].aerosol_extinction_per_km = depth;
+  return medium;
+}
+
 /// The reference medium without absorption: ozone gone, aerosol only scatters.
 inline atmosphere::Medium conservative(double albedo) {
   atmosphere::Medium medium = atmosphere::reference_medium();

@@ -125,6 +125,22 @@ TEST(Reference, RayleighSlabAgreesWithAddingDoubling) {
   EXPECT_LT(deviations.worst, 4);
 }
 
+// The whole table: bench_validation. Thick clouds have rare bright paths, which take more of them.
+TEST(Reference, CloudPassesTheFluxOfAddingDoubling) {
+  for (TruthRow& row : read_truth("slab_cloud.tsv"))
+    for (const auto& [mu0, name] : {std::pair{1.0, "mu0_1.0"}, {0.5, "mu0_0.5"}}) {
+      if (row["tau"] > 2) continue;
+      const ReferenceIrradiance flux = reference_irradiance(
+          cloud(row["tau"]), 0 * metre, std::acos(mu0) * rad,
+          {.samples = 8000, .seed = 8, .aerosol = AerosolShape::henyey_greenstein});
+      // Four decimals in the table.
+      EXPECT_NEAR((flux.sun[0] + flux.sky[0]) / mu0, row[name],
+                  4 * std::hypot(flux.sky_error[0] / mu0, 5e-5))
+          << row["tau"] << ' ' << mu0;
+      EXPECT_LT(flux.sky_error[0], 0.06 * mu0) << "not a test: " << row["tau"] << ' ' << mu0;
+    }
+}
+
 TEST(Reference, RayleighSlabPassesTheFluxOfAddingDoubling) {
   for (TruthRow& row : read_truth("slab_rayleigh.tsv")) {
     if (row["mu"] != 1) continue;

@@ -6,12 +6,12 @@
 
 namespace skylapse::sky::monte_carlo {
 
-Optics::Optics(const atmosphere::Medium& medium)
+Optics::Optics(const atmosphere::Medium& medium, AerosolShape shape)
     : bands(int(medium.bands.size())),
       padded((bands + kernel::kLanes - 1) / kernel::kLanes * kernel::kLanes),
       shells(medium),
       rayleigh_phase(medium.rayleigh_depolarization),
-      aerosol_phase(medium.aerosol_g),
+      aerosol_phase(medium.aerosol_g, shape),
       sun_radius(medium.sun_angular_radius_rad),
       has_aerosol(false) {
   assert(bands >= 1 && bands <= kMaxBands);

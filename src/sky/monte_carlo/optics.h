@@ -26,7 +26,8 @@ struct SunView {
 
 class Optics {
  public:
-  explicit Optics(const atmosphere::Medium& medium);
+  explicit Optics(const atmosphere::Medium& medium,
+                  AerosolShape shape = AerosolShape::cornette_shanks);
 
   int bands, padded;
   PerBand solar, rayleigh, aerosol, extinction_aerosol, ozone, albedo;

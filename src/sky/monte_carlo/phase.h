@@ -31,17 +31,29 @@ class RayleighPhase {
   double even_, square_;
 };
 
-/// Cornette & Shanks 1992, Eq. (8), for a shape parameter g in (-1, 1).
+/// Form of the aerosol's phase function.
+enum class AerosolShape {
+  cornette_shanks,    // what a medium means by aerosol_g
+  henyey_greenstein,  // for comparison with published clouds
+};
+
+/// Cornette & Shanks 1992, Eq. (8), or Henyey & Greenstein 1941, for a shape parameter g in (-1,
+/// 1), which of the second is the mean cosine.
 class AerosolPhase {
  public:
-  explicit AerosolPhase(double g)
-      : g_(g), scale_(3 / (8 * std::numbers::pi) * (1 - g * g) / (2 + g * g)) {}
+  explicit AerosolPhase(double g, AerosolShape shape = AerosolShape::cornette_shanks)
+      : g_(g),
+        square_(shape == AerosolShape::cornette_shanks ? 1 : 0),
+        scale_((1 - g * g) / (4 * std::numbers::pi)) {
+    if (shape == AerosolShape::cornette_shanks) scale_ *= 1.5 / (2 + g * g);
+  }
   [[nodiscard]] double at(double nu) const {
     // 1 + g^2 - 2 g nu without cancellation where both g and nu are near 1.
     const double d = (1 - g_) * (1 - g_) + 2 * g_ * (1 - nu);
-    return scale_ * (1 + nu * nu) / (d * std::sqrt(d));
+    return scale_ * (1 + square_ * nu * nu) / (d * std::sqrt(d));
   }
-  /// Henyey & Greenstein's cosine (1941), accepted with (1 + nu^2) / 2: at least every second.
+  /// Henyey & Greenstein's cosine, accepted for the other with (1 + nu^2) / 2: at least every
+  /// second.
   double sample(PathRandom& random) const {
     for (;;) {
       const double v = 2 * random.uniform() - 1;
@@ -54,13 +66,13 @@ class AerosolPhase {
       }
       if (nu < -1) nu = -1;
       if (nu > 1) nu = 1;
-      if (2 * random.uniform() < 1 + nu * nu) return nu;
+      if (square_ == 0 || 2 * random.uniform() < 1 + nu * nu) return nu;
     }
   }
   [[nodiscard]] double g() const { return g_; }
 
  private:
-  double g_, scale_;
+  double g_, square_, scale_;
 };
 
 }  // namespace skylapse::sky::monte_carlo

@@ -128,7 +128,7 @@ std::vector<double> sun_transmittance(const Optics& optics, double height, doubl
 
 ReferenceAnswer reference_answer(const atmosphere::Medium& medium, const bruneton::Query& query,
                                  const ReferenceOptions& options) {
-  const Optics optics(medium);
+  const Optics optics(medium, options.aerosol);
   const double height = query.height.in(km);
   assert(height >= 0 && std::isfinite(height));
   const glm::dvec3 direction = direction_of(query.view_zenith, query.azimuth);
@@ -159,7 +159,7 @@ ReferenceAnswer reference_answer(const atmosphere::Medium& medium, const bruneto
 
 ReferenceIrradiance reference_irradiance(const atmosphere::Medium& medium, Length height,
                                          Angle sun_zenith, const ReferenceOptions& options) {
-  const Optics optics(medium);
+  const Optics optics(medium, options.aerosol);
   const Place observer{height.in(km), {0, 0, 1}};
   assert(observer.height >= 0 && observer.height <= optics.shells.top());
   const glm::dvec3 to_sun = direction_of(sun_zenith, 0 * rad);
@@ -170,7 +170,7 @@ ReferenceIrradiance reference_irradiance(const atmosphere::Medium& medium, Lengt
   for (int b = 0; b < optics.bands; ++b)
     irradiance.sun.push_back(
         cosine > 0 ? cosine * optics.solar[size_t(b)] * sun.transmittance[size_t(b)] : 0);
-  const AerosolPhase lobe(optics.has_aerosol ? optics.aerosol_phase.g() : 0.0);
+  const AerosolPhase lobe = optics.has_aerosol ? optics.aerosol_phase : AerosolPhase(0);
   const double chance = optics.has_aerosol && to_sun.z > 0 ? 0.3 : 0;
   const auto trace = [&](Path& path, long index, PathRandom& random, PathRadiance& found) {
     const glm::dvec3 sun_seen = sun_of_path(optics, to_sun, options.sun, random);

@@ -24,6 +24,7 @@ struct ReferenceOptions {
   int min_order = 1, max_order = 0;
   bool ground = false;  // add what the ground at the end of the view ray reflects
   SunVisibility sun = SunVisibility::smooth_step;
+  AerosolShape aerosol = AerosolShape::cornette_shanks;
 };
 
 /// Per band of the medium [W m^-2 sr^-1 nm^-1], at 1 au, with the standard error of the mean; of

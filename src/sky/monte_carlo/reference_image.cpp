@@ -141,7 +141,10 @@ double ColourEstimate::relative_error() const {
 
 ReferenceScene::ReferenceScene(const atmosphere::Medium& medium, Length height,
                                const Direction<Enu>& sun, const ReferenceOptions& options)
-    : options_(options), optics_(medium), height_(height.in(km)), to_sun_(sun.vec()) {
+    : options_(options),
+      optics_(medium, options.aerosol),
+      height_(height.in(km)),
+      to_sun_(sun.vec()) {
   assert(height_ >= 0 && std::isfinite(height_));
   for (const atmosphere::SpectralBand& band : medium.bands) xyz_weights_.push_back(band.xyz_weight);
 }

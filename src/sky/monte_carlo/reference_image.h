@@ -49,7 +49,7 @@ class ReferenceScene {
 
 struct ReferenceImageInputs {
   const ReferenceScene* scene = nullptr;  // not null
-  Angle horizon;                          // elevation of the scene's horizon
+  Angle horizon{};                        // elevation of the scene's horizon
   glm::dmat3 xyz_to_rgb{1.0};             // to the linear space of the image
   double scale = 1.0;                     // factor on everything (distance of the sun)
   /// Told the share of the pixels that is done, answers whether to go on; from one thread at a
