@@ -6,6 +6,8 @@
 #include "core/sha256.h"
 #include "core/version.h"
 #include "output/atomic_file.h"
+#include "plan/effect_planner.h"
+#include "plan/table_settings.h"
 
 namespace skylapse::pipeline {
 namespace {
@@ -62,20 +64,28 @@ json model_json(const plan::Plan& plan, const plan::Frame& frame) {
   all["steps"] = sky.steps;
   all["slice"] = {sky.slice_azimuths, sky.slice_zeniths};
   all["precision"] = int(sky.precision);
+  // Which suns the tables hold is decided for the whole job.
+  const sky::EffectSet effects = plan::effects_of(plan, frame);
+  const auto media = plan::tables_of_frame(plan.job, plan.air, frame);
+  if (media && plan::reads_tables(plan, effects))
+    all["tables"] = canonical_text(plan::table_settings(plan, *media, effects));
   return all;
 }
 
-json effects_json(const config::EffectChoice& effects) {
-  json listed = json::array();
-  for (const sky::Effect effect : effects.listed) listed.push_back(name_of(effect));
-  return {{"rule", int(effects.rule)}, {"listed", listed}};
+/// Those that are on; what chose them shows nowhere else.
+json effects_json(const plan::Plan& plan, const plan::Frame& frame) {
+  const sky::EffectSet effects = plan::effects_of(plan, frame);
+  json on = json::array();
+  for (const auto& [name, effect] : sky::kEffectNames)
+    if (effects.has(effect)) on.push_back(std::string(name));
+  return on;
 }
 
 json sky_json(const plan::Plan& plan, const plan::Frame& frame) {
   const config::Sky& sky = plan.job.sky;
   return {{"model", plan::name_of(plan.model)},
           {"settings", model_json(plan, frame)},
-          {"effects", effects_json(sky.effects)},
+          {"effects", effects_json(plan, frame)},
           {"disc", sky.sun_disc},
           {"sun_algorithm", name_of(sky.sun_algorithm)}};
 }

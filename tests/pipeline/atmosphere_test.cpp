@@ -157,9 +157,9 @@ TEST_F(Atmosphere, FromOrbitTheEarthIsBrightAndSpaceIsBlack) {
 
 TEST_F(Atmosphere, SingleScatteringIsThePartOfTheLightThatItSays) {
   const std::string time = "at: [solar_noon]", camera = "projection: lat-long, size: 32x16";
-  const std::string options = ", level: draft, wavelengths: 3, sun_disc: off}";
-  const auto all =
-      render_all(plan_of_text(scene("235 m", time, camera, "sky: {model: bruneton" + options)));
+  const std::string options = ", wavelengths: 3, sun_disc: off}";
+  const auto all = render_all(
+      plan_of_text(scene("235 m", time, camera, "sky: {model: bruneton, level: draft" + options)));
   const auto one = render_all(
       plan_of_text(scene("235 m", time, camera, "sky: {model: single-scattering" + options)));
   ASSERT_EQ(all.size() + one.size(), 2u);
