@@ -65,8 +65,8 @@ void there_and_back(Projection projection, Draw& draw, Tally& tally) {
   if (!tally.finite(seen->x() + seen->y() + seen->z(), where)) return;
   const auto again = position_of(camera, *seen);
   // A direction on the very edge may count as outside after its rounding.
-  const bool at_edge = p.x < 1e-6 || p.y < 1e-6 || p.x > camera.width * (1 - 1e-12) ||
-                       p.y > camera.height * (1 - 1e-12);
+  const bool at_edge =
+      p.x < 1e-6 || p.y < 1e-6 || p.x > camera.width - 1e-6 || p.y > camera.height - 1e-6;
   const bool fisheye = projection == Projection::fisheye_equidistant ||
                        projection == Projection::fisheye_equisolid ||
                        projection == Projection::fisheye_stereographic;

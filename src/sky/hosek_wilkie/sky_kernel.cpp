@@ -9,7 +9,8 @@
 
 // Loops for the vectoriser: one text, compiled for each instruction set by the compiler. Loops with
 // vectors of our own: three versions from one template, as wide as each set's registers.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+// (Not under ThreadSanitizer: the choice is made before its runtime starts, and crashes in it.)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define SKYLAPSE_X86 1
 #define SKYLAPSE_CLONES \
   __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
