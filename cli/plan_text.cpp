@@ -10,6 +10,7 @@
 
 #include "cli/table.h"
 #include "core/parallel.h"
+#include "pipeline/promise_json.h"
 #include "plan/cost_model.h"
 #include "plan/effect_planner.h"
 
@@ -18,16 +19,37 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string marks_of(const plan::Plan& plan, const plan::Frame& frame) {
-  std::string marks;
-  for (const auto& decision : plan::decide_effects(plan, frame))
-    if (decision.on) marks += (marks.empty() ? "" : " ") + name_of(decision.effect);
-  return marks + (frame.sun.extrapolated ? " (extrapolated)" : "");
+/// The effects that are on in every frame: said once, not in each line.
+sky::EffectSet common_effects(const PlannedWork& work) {
+  sky::EffectSet common;
+  for (const auto& [name, effect] : sky::kEffectNames) common.set(effect);
+  for (const long number : work.frames) {
+    const auto of_frame = plan::effects_of(work.plan, work.plan.frames[number - 1]);
+    for (const auto& [name, effect] : sky::kEffectNames)
+      common.set(effect, common.has(effect) && of_frame.has(effect));
+  }
+  return common;
 }
 
-Table frame_table(const PlannedWork& work) {
+std::string names_of(sky::EffectSet set) {
+  std::string names;
+  for (const auto& [name, effect] : sky::kEffectNames)
+    if (set.has(effect)) names += (names.empty() ? "" : " ") + std::string(name);
+  return names;
+}
+
+/// What a frame has beside the common effects.
+std::string marks_of(const plan::Plan& plan, const plan::Frame& frame, sky::EffectSet common) {
+  sky::EffectSet own = plan::effects_of(plan, frame);
+  for (const auto& [name, effect] : sky::kEffectNames)
+    own.set(effect, own.has(effect) && !common.has(effect));
+  return names_of(own) + (frame.sun.extrapolated ? " (extrapolated)" : "");
+}
+
+Table frame_table(const PlannedWork& work, sky::EffectSet common) {
   Table table{
-      {"frame", "site", "local", "sun_az", "sun_el", "EV", "model", "effects", "first file"}, {}};
+      {"frame", "site", "local", "sun_az", "sun_el", "EV", "model", "own effects", "first file"},
+      {}};
   for (const long number : work.frames) {
     const plan::Frame& frame = work.plan.frames[number - 1];
     table.rows.push_back({{fmt::format("{}", number), true},
@@ -37,10 +59,18 @@ Table frame_table(const PlannedWork& work) {
                           number_cell(elevation(frame.sky.sun_apparent).in(deg), 3),
                           number_cell(frame.ev, 2),
                           text_cell(plan::name_of(work.plan.model)),
-                          text_cell(marks_of(work.plan, frame)),
+                          text_cell(marks_of(work.plan, frame, common)),
                           text_cell(plan::files_of(work.plan, frame, 0).front())});
   }
   return table;
+}
+
+/// More decimals than a reason has: such numbers are written with three digits.
+constexpr int kSignificant = 9;
+
+std::string number_text(double number, int decimals) {
+  if (decimals > 3) return fmt::format("{:.3g}", number);
+  return fmt::format("{:.{}f}", number, decimals);
 }
 
 /// A reason split at its first number, so that reasons that differ in it alone count as one.
@@ -58,12 +88,16 @@ Wording wording_of(const std::string& reason) {
   const double number = std::strtod(reason.c_str() + from, &end);
   const std::string text(reason.c_str() + from, static_cast<const char*>(end));
   const size_t point = text.find('.');
+  const bool exponent = text.find('e') != std::string::npos;
   return {reason.substr(0, from), end, number,
-          point == std::string::npos ? 0 : int(text.size() - point - 1)};
+          exponent                     ? kSignificant
+          : point == std::string::npos ? 0
+                                       : int(text.size() - point - 1)};
 }
 
 std::string bound_text(const std::optional<double>& bound) {
-  return bound ? fmt::format("; error bound {:.2g}", *bound) : "; error not bounded";
+  if (!bound) return "; error not bounded";
+  return *bound > 1e3 ? "; it would show" : fmt::format("; error bound {:.2g}", *bound);
 }
 
 /// What an effect spends, or what is saved without it at which error.
@@ -115,9 +149,8 @@ std::string effect_summary(const PlannedWork& work) {
   for (const auto& [key, kind] : kinds) {
     std::string range;
     if (kind.decimals >= 0) {
-      const int decimals = std::min(kind.decimals, 4);
-      range = fmt::format("{:.{}f}", kind.low, decimals);
-      if (kind.high > kind.low) range += fmt::format(" to {:.{}f}", kind.high, decimals);
+      range = number_text(kind.low, kind.decimals);
+      if (kind.high > kind.low) range += " to " + number_text(kind.high, kind.decimals);
     }
     text +=
         fmt::format("  {:<22} {:<3} in {:>4} frames: {}{}{}{}\n", name_of(std::get<0>(key)),
@@ -162,16 +195,18 @@ std::string plan_text(const PlannedWork& work) {
   const long extrapolated = std::count_if(work.frames.begin(), work.frames.end(), [&](long n) {
     return plan.frames[n - 1].sun.extrapolated;
   });
-  std::string text = format_table(frame_table(work), TableFormat::table) + "\n";
+  const sky::EffectSet common = common_effects(work);
+  std::string text = format_table(frame_table(work, common), TableFormat::table) + "\n";
   text += fmt::format("{}: {} frames of {} (sites {}, air {} x {}, cameras {})\n", plan.job.file,
                       work.frames.size(), plan.frames.size(), plan.job.sites.size(),
                       plan.job.air.turbidity.size(), plan.job.air.ground_albedo.size(),
                       plan.job.cameras.size());
   text += fmt::format("model: {}\n", plan.model_reason);
+  if (plan.promise) text += promise_text(*plan.promise);
   text += atmosphere_text(plan, cost);
   if (extrapolated > 0)
     text += fmt::format("extrapolated: {} frames with the sun below the horizon\n", extrapolated);
-  text += "effects:\n" + effect_summary(work);
+  text += "in every frame: " + names_of(common) + "\neffects:\n" + effect_summary(work);
   for (const std::string& note : plan.notes) text += "note: " + note + "\n";
   text += fmt::format("estimate: {} on {} cores, {} written\n",
                       duration_text(cost.core_seconds / available_cores()), available_cores(),
@@ -215,6 +250,7 @@ ordered_json plan_json(const PlannedWork& work) {
   return {{"config", plan.job.file},
           {"model", plan::name_of(plan.model)},
           {"model_reason", plan.model_reason},
+          {"promise", pipeline::promise_json(plan)},
           {"atmosphere", atmosphere_json(plan, cost)},
           {"notes", plan.notes},
           {"estimate", {{"core_seconds", cost.core_seconds}, {"bytes", cost.bytes}}},

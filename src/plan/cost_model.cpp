@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <utility>
+#include <tuple>
+
+#include "plan/effect_planner.h"
+#include "plan/rates.h"
+#include "plan/rung_cost.h"
+#include "plan/table_settings.h"
 
 namespace skylapse::plan {
 namespace {
@@ -14,8 +19,7 @@ struct Rate {
   double bytes;
 };
 
-constexpr double kSkyNs = 7;       // either model
-constexpr double kSliceMs = 60;    // slice of 16 wavelengths on software GL, and the disc
+constexpr double kSkyNs = 7;       // Hosek-Wilkie, or a picture from a slice
 constexpr double kDisplayNs = 51;  // exposure, display transform, dither
 constexpr double kMovieNs = 58;    // reading back and x264
 
@@ -38,57 +42,83 @@ Rate rate_of(const config::Output& output) {
   return {kMovieNs, 0.005};
 }
 
-/// Core seconds to compute the tables of four wavelengths on software GL, shaders compiled.
-double precomputation_s(sky::bruneton::Level level) {
-  switch (level) {
-    case sky::bruneton::Level::draft:
-      return 0.1;
-    case sky::bruneton::Level::low:
-      return 0.3;
-    case sky::bruneton::Level::standard:
-      return 0.55;
-    case sky::bruneton::Level::fine:
-      return 2.2;
-  }
-  return 0;
-}
+/// Core seconds of a pixel of the fits that have no tables of directions, and of a frame.
+constexpr double kBaselineNs = 300, kBaselineFrameSeconds = 8e-3;
+/// The path tracer: paths a second in the daytime medium (bench_reference prints it), all bands.
+constexpr double kPathsPerSecond = 3e5;
 
-/// The media whose tables the frames need, each once.
-std::map<std::string, sky::atmosphere::Medium> table_media(const Plan& plan,
-                                                           const std::vector<long>& frames) {
+/// The media whose tables the frames need, each once, with the sizes that the service takes.
+struct TableNeeds {
+  std::map<std::string, sky::bruneton::Settings> sets;
+  long mixtures = 0;  // frames between two sets
+};
+
+TableNeeds table_needs(const Plan& plan, const std::vector<long>& frames) {
   const bool changes = std::any_of(plan.air.sites.begin(), plan.air.sites.end(),
                                    [](const auto& nodes) { return !nodes.empty(); });
-  std::map<std::string, sky::atmosphere::Medium> media;
-  std::set<std::pair<int, int>> seen;  // air that stands still: one frame of each will do
+  TableNeeds needs;
+  std::set<std::tuple<int, int, int>> seen;  // air that stands still: one frame of each will do
   for (const long number : frames) {
     const Frame& frame = plan.frames[number - 1];
-    if (!changes && !seen.emplace(frame.turbidity, frame.albedo).second) continue;
-    const auto of_frame = tables_of_frame(plan.job, plan.air, frame);
-    if (!of_frame) continue;  // the run will say what is wrong
-    media.emplace(canonical_text(of_frame->a), of_frame->a);
-    if (of_frame->weight > 0) media.emplace(canonical_text(of_frame->b), of_frame->b);
+    const int camera = int(frame.camera) + int(plan.job.cameras.size()) * frame.site;
+    if (!changes && !seen.emplace(frame.turbidity, frame.albedo, camera).second) continue;
+    const sky::EffectSet effects = effects_of(plan, frame);
+    if (!reads_tables(plan, effects)) continue;
+    const auto media = tables_of_frame(plan.job, plan.air, frame);
+    if (!media) continue;  // the run will say what is wrong
+    const auto settings = table_settings(plan, *media, effects);
+    needs.sets.emplace(canonical_text(media->a), settings);
+    if (media->weight == 0) continue;
+    needs.sets.emplace(canonical_text(media->b), settings);
+    ++needs.mixtures;
   }
-  return media;
+  return needs;
 }
 
 void add_tables(const Plan& plan, const std::vector<long>& frames, Cost& cost) {
   const double groups = (plan.job.sky.wavelengths + 3) / 4;
-  for (const auto& [name, medium] : table_media(plan, frames)) {
-    const auto settings = sky::bruneton::settings_for(plan.job.sky.level, medium);
+  const TableNeeds needs = table_needs(plan, frames);
+  double bytes = 0;
+  for (const auto& [name, settings] : needs.sets) {
     const double texels = double(settings.heights) * settings.sun_rows() * settings.table_azimuths *
                           settings.table_zeniths;
     ++cost.table_sets;
-    cost.table_core_seconds += groups * precomputation_s(plan.job.sky.level);
+    cost.table_core_seconds += rates::table_seconds(plan, settings);
+    bytes = std::max(bytes, groups * 4 * sizeof(float) * texels);
     cost.table_bytes += groups * 4 * sizeof(float) * texels;
   }
-  cost.core_seconds += cost.table_core_seconds;
+  cost.core_seconds +=
+      cost.table_core_seconds + double(needs.mixtures) * bytes * rates::kBlendSecondsPerByte;
+}
+
+/// Of the sky of one frame, without tables and files.
+double sky_seconds(const Plan& plan, const Frame& frame, double pixels) {
+  using config::SkyModel;
+  switch (plan.model) {
+    case SkyModel::cie:
+    case SkyModel::preetham:
+      return pixels * kBaselineNs * 1e-9 + kBaselineFrameSeconds;
+    case SkyModel::reference:
+      return pixels * (kPixelSetupSeconds + double(plan.job.sky.paths.samples) / kPathsPerSecond);
+    case SkyModel::single_scattering:
+    case SkyModel::bruneton:
+      return pixels * kSkyNs * 1e-9 +
+             rates::frame_slice_seconds(plan, frame, effects_of(plan, frame));
+    default:
+      return pixels * kSkyNs * 1e-9;
+  }
 }
 
 }  // namespace
 
+double picture_seconds(const config::JobConfig& job, const image::Camera& camera) {
+  double nanoseconds = kSkyNs;
+  for (const auto& output : job.outputs) nanoseconds += rate_of(output).nanoseconds;
+  return 1e-9 * nanoseconds * camera.width * camera.height;
+}
+
 Cost estimate_cost(const Plan& plan, const std::vector<long>& frames) {
-  const bool computed = !is_fitted(plan.model);
-  Rate per_pixel{kSkyNs, 0};
+  Rate per_pixel{0, 0};
   for (const auto& output : plan.job.outputs) {
     const Rate rate = rate_of(output);
     per_pixel.nanoseconds += rate.nanoseconds;
@@ -97,10 +127,10 @@ Cost estimate_cost(const Plan& plan, const std::vector<long>& frames) {
   Cost cost;
   if (plan.model == config::SkyModel::bruneton) add_tables(plan, frames, cost);
   for (const long number : frames) {
-    const image::Camera& camera = plan.job.cameras[plan.frames[number - 1].camera].camera;
+    const Frame& frame = plan.frames[number - 1];
+    const image::Camera& camera = plan.job.cameras[frame.camera].camera;
     const double pixels = double(camera.width) * camera.height;
-    cost.core_seconds += pixels * per_pixel.nanoseconds * 1e-9;
-    if (computed) cost.core_seconds += 1e-3 * kSliceMs;
+    cost.core_seconds += pixels * per_pixel.nanoseconds * 1e-9 + sky_seconds(plan, frame, pixels);
     cost.bytes += pixels * per_pixel.bytes;
   }
   return cost;

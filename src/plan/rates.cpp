@@ -32,6 +32,38 @@ double table_group_seconds(sky::bruneton::Level level) {
 
 }  // namespace
 
+double table_seconds(const Plan& plan, const sky::bruneton::Settings& s) {
+  constexpr double kFixed = 0.22;     // of all suns' time
+  constexpr double kUsualOrders = 8;  // until they converge in clear air
+  double share = kFixed + (1 - kFixed) * s.suns / std::max(1, s.warp_suns());
+  if (s.orders > 0) share *= 0.3 + 0.7 * std::min(2.0, s.orders / kUsualOrders);
+  if (s.stop_below < 0.5 * stop_below(plan.job.sky.level)) share *= 1 + kFurtherOrders;
+  return share * table_seconds(plan);
+}
+
+double frame_slice_seconds(const Plan& plan, const Frame& frame, sky::EffectSet effects) {
+  constexpr double kUsualDirections = 64 * 128, kUsualSteps = 16;
+  constexpr double kIrradianceShare = 0.1;  // a small slice of its own, for the manifest
+  const config::Sky& sky = plan.job.sky;
+  double seconds = slice_seconds(plan);
+  if (sky.slice_azimuths > 0)
+    seconds *= double(sky.slice_azimuths) * sky.slice_zeniths / kUsualDirections;
+  if (sky.steps > 0) seconds *= sky.steps / kUsualSteps;
+  if (!effects.has(sky::Effect::multiple_scattering)) seconds *= 1 - kMultipleShareOfSlice;
+  double seen = 1;
+  if (!effects.has(sky::Effect::unseen_sky)) {
+    const ViewReach& view = plan.views[frame.camera];
+    const Angle below = std::clamp(frame.horizon - view.lowest, 0 * deg, 90 * deg);
+    const Angle above = std::clamp(view.highest - frame.horizon, 0 * deg, 90 * deg);
+    seen = (below + above) / (180 * deg);
+    const image::Camera& camera = plan.job.cameras[frame.camera].camera;
+    // Both sides of the sun are one; towards the zenith all azimuths are near.
+    if (camera.projection == image::Projection::perspective && view.highest < 80 * deg)
+      seen *= std::min(1.0, 1.5 * camera.field_of_view.in(deg) / 180);
+  }
+  return seconds * (kIrradianceShare + (1 - kIrradianceShare) * seen);
+}
+
 double slice_seconds(const Plan& plan) { return kSliceGroupSeconds * groups(plan); }
 
 double table_seconds(const Plan& plan) {

@@ -42,7 +42,7 @@ Verdict judge_aerosol(const Plan& plan, const Frame&) {
       air.stratospheric_optical_depth > 0 ? 1e3 : 8 * km / air.aerosol_scale_height;
   const double bound = most * line * kCrossings +
                        share * peak_over_air(air.aerosol_g) * std::max(1.0, concentration);
-  return {bound > kLeaveBelow, fmt::format("its depth is up to {:.2g}", most), bound, kSeconds};
+  return {bound > kLeaveBelow, fmt::format("its depth is up to {:.3g}", most), bound, kSeconds};
 }
 
 }  // namespace skylapse::plan

@@ -12,4 +12,7 @@ inline constexpr double kFurtherOrdersStop = 1e-3;
 /// Error of a pixel by the geometric tail in place of those orders.
 inline constexpr double kTailError = 5e-3;
 
+/// Error of a pixel by tables of those suns alone that a job's frames read (bench_economies).
+inline constexpr double kPartialTablesError = 1e-3;
+
 }  // namespace skylapse::plan

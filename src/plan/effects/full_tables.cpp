@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "plan/effects/calibrated_bounds.h"
 #include "plan/effects/rule.h"
 #include "plan/plan.h"
 #include "plan/rates.h"
@@ -10,7 +11,7 @@ Verdict judge_full_tables(const Plan& plan, const Frame&) {
   return {false,
           fmt::format("suns from {:.2f} deg up to {:.2f} deg are read",
                       plan.reach.lowest_sun.in(deg), plan.reach.highest_sun.in(deg)),
-          0, rates::full_tables_seconds(plan)};
+          kPartialTablesError, rates::full_tables_seconds(plan)};
 }
 
 }  // namespace skylapse::plan

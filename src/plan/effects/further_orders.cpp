@@ -16,7 +16,7 @@ Verdict judge_further_orders(const Plan& plan, const Frame&) {
             seconds,
             false};
   return {false,
-          fmt::format("a geometric tail stands for those that add less than {:.2g}",
+          fmt::format("a geometric tail stands for those that add less than {:g}",
                       rates::stop_below(plan.job.sky.level)),
           kTailError, seconds};
 }

@@ -18,11 +18,8 @@ Verdict judge_limb_darkening(const Plan& plan, const Frame& frame) {
   if (!judge_sun_disc(plan, frame).called_for) return {false, "no disc is drawn", 0, kSeconds};
   const double radius_px = frame.sky.sun_radius / plan.pixels[frame.camera].smallest;
   const double bound = disc_change_bound(plan, frame, kMoved * std::numbers::sqrt2 * radius_px);
-  return {bound > kLeaveBelow,
-          fmt::format("the disc's radius is {:.2f} pixels, and evening it out moves {:.2g} of the "
-                      "darkest step",
-                      radius_px, bound),
-          bound, kSeconds};
+  return {bound > kLeaveBelow, fmt::format("the disc's radius is {:.2f} pixels", radius_px), bound,
+          kSeconds};
 }
 
 }  // namespace skylapse::plan

@@ -63,7 +63,7 @@ Verdict judge_multiple_scattering(const Plan& plan, const Frame& frame) {
             (1 - t - albedo) / darkest_step(frame);
   }
   return {!bound || *bound > kLeaveBelow,
-          fmt::format("the depth of the longest line is up to {:.2g}", t), bound, seconds};
+          fmt::format("the depth of the longest line is up to {:.3g}", t), bound, seconds};
 }
 
 }  // namespace skylapse::plan

@@ -17,7 +17,7 @@ Verdict judge_ozone(const Plan& plan, const Frame&) {
   const double depth = *std::max_element(depths.ozone.begin(), depths.ozone.end());
   const double line = longest_line_tent(plan.job.air.description.planet_radius, 10 * km, 40 * km);
   const double bound = depth * line * kCrossings;
-  return {bound > kLeaveBelow, fmt::format("the depth of its longest line is {:.2g}", depth * line),
+  return {bound > kLeaveBelow, fmt::format("the depth of its longest line is {:.3g}", depth * line),
           bound, kSeconds};
 }
 
