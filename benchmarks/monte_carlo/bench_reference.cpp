@@ -1,13 +1,14 @@
-// Speed and noise of the path tracer: paths a second and core, and the standard error that a
+// Speed and noise of the path tracer: paths a second of one core (its processor time, so that a
+// busy machine tells the same), and the standard error that a
 // thousand paths leave, for all orders and for those beyond the first.
 //
 //   bench_reference [seconds of each measurement, default 0.5]
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 
 #include "core/parallel.h"
 #include "sky/atmosphere/atmosphere.h"
@@ -21,6 +22,8 @@ using sky::bruneton::Query;
 using sky::monte_carlo::reference_answer;
 using sky::monte_carlo::ReferenceOptions;
 
+double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+
 struct Rate {
   double paths_per_second = 0;
   double error = 0;  // of a thousand paths, relative to all orders; mean over bands
@@ -28,23 +31,21 @@ struct Rate {
 
 /// Runs of one thread until the time is up; the fastest counts.
 Rate measure(const Medium& medium, const Query& query, ReferenceOptions options, double seconds) {
-  using Clock = std::chrono::steady_clock;
   const ThreadLimit one(1);
   const auto all = reference_answer(medium, query, {.samples = 20000, .seed = 77});
   options.samples = 4096;
   Rate rate;
-  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+  const double end = processor_seconds() + seconds;
   do {
-    const auto start = Clock::now();
+    const double start = processor_seconds();
     const auto answer = reference_answer(medium, query, options);
-    const std::chrono::duration<double> taken = Clock::now() - start;
-    rate.paths_per_second =
-        std::max(rate.paths_per_second, double(options.samples) / taken.count());
+    const double taken = processor_seconds() - start;
+    rate.paths_per_second = std::max(rate.paths_per_second, double(options.samples) / taken);
     rate.error = 0;
     for (size_t b = 0; b < medium.bands.size(); ++b)
       rate.error += answer.standard_error[b] / all.radiance[b] * std::sqrt(4.096) /
                     double(medium.bands.size());
-  } while (Clock::now() < end);
+  } while (processor_seconds() < end);
   return rate;
 }
 

@@ -141,6 +141,15 @@ TEST(Reference, CloudPassesTheFluxOfAddingDoubling) {
     }
 }
 
+// Guided draws at each of hundreds of events once made weights so uneven that this came out as 0.
+TEST(Reference, ThickCloudsKeepTheirLight) {
+  const ReferenceIrradiance flux = reference_irradiance(
+      cloud(32), 0 * metre, 0 * deg,
+      {.samples = 4000, .seed = 8, .aerosol = AerosolShape::henyey_greenstein});
+  EXPECT_NEAR(flux.sky[0], 0.2722, 4 * flux.sky_error[0]);
+  EXPECT_LT(flux.sky_error[0], 0.06);
+}
+
 TEST(Reference, RayleighSlabPassesTheFluxOfAddingDoubling) {
   for (TruthRow& row : read_truth("slab_rayleigh.tsv")) {
     if (row["mu"] != 1) continue;

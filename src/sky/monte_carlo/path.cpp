@@ -17,6 +17,10 @@ constexpr double kTwilightElevation = 0.1;  // rad
 constexpr double kChanceOfGuide = 0.7;
 constexpr int kGuideCells = 5;
 constexpr double kLeastExpectation = 0.1;
+/// Events after which a path is left to the phase function and to density times transmittance.
+/// Each draw by a guide makes weights uneven; over the hundreds of events of a path in a thick
+/// cloud a few paths would carry everything, and most estimates would miss them.
+constexpr int kGuidedOrders = 4;
 
 /// 1 - exp(-depth), given the exponential.
 double absorbed(double depth, double transmittance) {
@@ -73,6 +77,7 @@ void Path::gather(int band, double value) {
 }
 
 Path::Lobe Path::lobe_at(const Place& place) const {
+  if (order_ > kGuidedOrders) return {};
   const double mu_sun = glm::dot(place.up, to_sun_);
   if (mu_sun > optics_.shells.horizon_cosine(place.height))
     return {optics_.has_aerosol ? kChanceOfSun : 0, to_sun_, &optics_.aerosol_phase};
@@ -159,7 +164,8 @@ bool Path::reflect_at(const Place& place, Sunlight sunlight) {
 /// Fills guide_ for the traced way; the chance that it is followed.
 double Path::make_guide() {
   const Shells& shells = optics_.shells;
-  if (!rules_.guide || glm::dot(place_.up, to_sun_) > SunGuide::kLowSun) return 0;
+  if (!rules_.guide || order_ > kGuidedOrders) return 0;
+  if (glm::dot(place_.up, to_sun_) > SunGuide::kLowSun) return 0;
   guide_.cut(shells, RayParabola(shells.radius(), place_.height, glm::dot(place_.up, direction_)),
              trace_, kGuideCells);
   for (RayCells::Cell& cell : guide_.cells()) {
