@@ -31,8 +31,9 @@ void add_color(std::vector<Sweep>& sweeps) {
                       const glm::dvec3 back = to_xyz(to_rgb({xyz}, space), space).value;
                       if (!tally.finite(back.x + back.y + back.z, where)) return;
                       const glm::dvec3 off = glm::abs(back - xyz), size = glm::abs(xyz);
+                      // Denormal numbers have fewer digits.
                       const double largest = std::max({size.x, size.y, size.z});
-                      if (largest > 0)
+                      if (largest > 1e-290)
                         tally.error(std::max({off.x, off.y, off.z}) / largest, where);
                     }});
   sweeps.push_back({"color: chromaticity and temperature", "none", 0, "laws alone", 1,
