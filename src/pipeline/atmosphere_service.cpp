@@ -283,7 +283,7 @@ Result<FrameAtmosphere> AtmosphereService::of_frame(const plan::Frame& frame) {
   // The context does one thing at a time. Held until the slice is there, so that of air that
   // changes one model exists and not one for each frame in flight.
   std::unique_lock lock(state_->mutex);
-  const auto model = state_->model_of(frame, effects);
+  auto model = state_->model_of(frame, effects);
   if (!model) return model.error();
   auto slice = model->slice(frame.camera_height, sun_zenith, grid, content);
   if (!slice) return slice.error();
@@ -291,6 +291,7 @@ Result<FrameAtmosphere> AtmosphereService::of_frame(const plan::Frame& frame) {
   auto lit = model->slice(frame.camera_height, sun_zenith, dome,
                           {.ground = false, .window = sky::bruneton::irradiance_window(dome)});
   if (!lit) return lit.error();
+  model->gpu.reset();  // before another frame of changing air makes its own
   lock.unlock();
   return FrameAtmosphere{refined(*slice), horizontal_irradiance_xyz(refined(*lit)),
                          disc_of(*model->twin, frame)};

@@ -161,6 +161,29 @@ TEST(HalfSource, ChangesTheSkyByThreeDigitsDownToTheEndOfTwilight) {
         << sun;
 }
 
+TEST(Components, AirWithoutAerosolNeedsHarmonicsOfDegreeTwoAlone) {
+  atmosphere::Medium medium = green_medium();
+  medium.bands[0].aerosol_scattering_per_km = medium.bands[0].aerosol_extinction_per_km = 0;
+  const Settings settings = settings_for(Level::draft, medium);
+  EXPECT_EQ(settings.harmonics, 2);
+  Settings more = settings;
+  more.harmonics = 8;
+  for (const double sun : {30.0, 94.0})
+    EXPECT_LT(distance(slice_of(twin_of(medium, settings), 1 * km, sun * deg),
+                       slice_of(twin_of(medium, more), 1 * km, sun * deg)),
+              1e-6);  // tables are rounded to float
+}
+
+TEST(Components, OfNoneTheProfileDoesNotMatter) {
+  atmosphere::Medium none = green_medium();
+  none.bands[0].aerosol_scattering_per_km = none.bands[0].aerosol_extinction_per_km = 0;
+  none.bands[0].ozone_absorption_per_km = 0;
+  atmosphere::Medium bare = none;
+  bare.aerosol = bare.ozone = {};
+  EXPECT_EQ(slice_of(single_scattering_twin(none), 1 * km, 60 * deg).smooth,
+            slice_of(single_scattering_twin(bare), 1 * km, 60 * deg).smooth);
+}
+
 TEST(AerialPerspective, LeftOutLeavesTheGroundAloneBelowTheHorizon) {
   const Twin twin = make_twin(green_medium());
   const SliceGrid grid = slice_grid(twin.medium(), 3 * km, 5, 16);

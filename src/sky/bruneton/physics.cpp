@@ -27,6 +27,24 @@ double set_pieces(text::AirParameters& air, int first, const atmosphere::Density
   return count;
 }
 
+/// Whether any band has more than none of something.
+bool any_band(const atmosphere::Medium& medium, double atmosphere::SpectralBand::*coefficient) {
+  return std::any_of(medium.bands.begin(), medium.bands.end(),
+                     [&](const atmosphere::SpectralBand& band) { return band.*coefficient > 0; });
+}
+
+/// The profiles of what is there: densities of what neither scatters nor absorbs are not computed.
+void set_densities(text::AirParameters& air, const atmosphere::Medium& medium) {
+  using Band = atmosphere::SpectralBand;
+  if (any_band(medium, &Band::rayleigh_scattering_per_km))
+    air.rayleigh_terms = set_pieces(air, 0, medium.rayleigh);
+  if (any_band(medium, &Band::aerosol_scattering_per_km) ||
+      any_band(medium, &Band::aerosol_extinction_per_km))
+    air.aerosol_terms = set_pieces(air, text::MAX_DENSITY_TERMS, medium.aerosol);
+  if (any_band(medium, &Band::ozone_absorption_per_km))
+    air.ozone_terms = set_pieces(air, 2 * text::MAX_DENSITY_TERMS, medium.ozone);
+}
+
 void set_phase(text::AirParameters& air, const atmosphere::Medium& medium) {
   // Bucholtz 1995, Eqs. 10-12: gamma = rho / (2 - rho).
   const double gamma = medium.rayleigh_depolarization / (2 - medium.rayleigh_depolarization);
@@ -80,9 +98,7 @@ text::AirParameters air_parameters(const atmosphere::Medium& medium, const Setti
   air.horizon_length = std::sqrt(H * (2 * medium.bottom_radius_km + H));
   set_phase(air, medium);
   set_table_coordinates(air, medium, settings);
-  air.rayleigh_terms = set_pieces(air, 0, medium.rayleigh);
-  air.aerosol_terms = set_pieces(air, text::MAX_DENSITY_TERMS, medium.aerosol);
-  air.ozone_terms = set_pieces(air, 2 * text::MAX_DENSITY_TERMS, medium.ozone);
+  set_densities(air, medium);
   set_layers(air, medium, settings);
   return air;
 }

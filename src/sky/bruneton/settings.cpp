@@ -57,6 +57,7 @@ struct Difficulty {
   double aerosol_depth = 0;  // vertical, by scattering
   double aerosol_share = 0;  // of the scattering where the aerosol is densest
   double albedo = 0;
+  bool aerosol = false;  // scatters at all
 };
 
 Difficulty difficulty_of(const atmosphere::Medium& medium) {
@@ -65,6 +66,7 @@ Difficulty difficulty_of(const atmosphere::Medium& medium) {
   Difficulty worst;
   for (const atmosphere::SpectralBand& band : medium.bands) {
     worst.albedo = std::max(worst.albedo, band.ground_albedo);
+    worst.aerosol |= band.aerosol_scattering_per_km > 0;
     worst.aerosol_depth =
         std::max(worst.aerosol_depth, band.aerosol_scattering_per_km * aerosol_column);
     constexpr int kSteps = 64;
@@ -119,6 +121,8 @@ Settings settings_for(Level level, const atmosphere::Medium& medium) {
 
   const int degree = degree_needed(medium.aerosol_g, difficulty.aerosol_share,
                                    moment_tolerance(level) * (1 - 0.5 * haze));
+  // Air alone scatters by a polynomial of degree 2: no more is needed, and it is exact.
+  if (!difficulty.aerosol) s.harmonics = 2;
   if (degree > s.harmonics) {
     const double growth = double(degree) / s.harmonics;
     s.harmonics = degree;
