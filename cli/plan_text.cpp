@@ -136,8 +136,8 @@ std::string effect_summary(const PlannedWork& work) {
   for (const long number : work.frames)
     for (const auto& d : plan::decide_effects(work.plan, work.plan.frames[number - 1])) {
       const Wording wording = wording_of(d.reason);
-      Kind& kind =
-          kinds[{d.effect, !d.on, wording.before, wording.after, d.error_bound.has_value()}];
+      Kind& kind = kinds[{d.effect, !d.on, wording.before, wording.after,
+                          d.on || d.error_bound.has_value()}];
       if (d.error_bound) kind.bound = std::max(kind.bound.value_or(0), *d.error_bound);
       kind.core_seconds += d.core_seconds;
       kind.low = kind.frames == 0 ? wording.number : std::min(kind.low, wording.number);

@@ -107,7 +107,9 @@ TEST(Effects, EveryDecisionOfThePlannerIsBounded) {
       EXPECT_FALSE(d.reason.empty());
       EXPECT_GE(d.core_seconds, 0);
       const bool by_model = d.effect == plan::Effect::multiple_scattering;
-      if (!d.on && !by_model) EXPECT_TRUE(d.error_bound) << sky << " " << name_of(d.effect);
+      if (!d.on && !by_model) {
+        EXPECT_TRUE(d.error_bound) << sky << " " << name_of(d.effect);
+      }
     }
   }
 }
