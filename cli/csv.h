@@ -26,9 +26,9 @@ struct CsvTable {
 inline constexpr size_t kMaxBatchErrors = 20;
 
 /// Reads a table from a file, or standard input for "-". Lines that start with '#' and lines
-/// that are empty or blank are passed over; the first other line names the columns, each once. A row is one line.
-/// Rows of another length and unclosed quotes are collected in `bad_rows`. Errors: missing_input
-/// (cannot be read, is a folder), invalid_input (no header, a column named twice).
+/// that are empty or blank are passed over; the first other line names the columns, each once. A
+/// row is one line. Rows of another length and unclosed quotes are collected in `bad_rows`. Errors:
+/// missing_input (cannot be read, is a folder), invalid_input (no header, a column named twice).
 Result<CsvTable> read_csv(const std::string& file);
 /// The same for text; `name` is used in messages.
 Result<CsvTable> parse_csv(std::string text, std::string name);

@@ -64,7 +64,8 @@ TEST_F(Console, JsonOfProbeHasTheInputAndTheRadianceOfTheTable) {
 
 /// File names are bytes, JSON is UTF-8: such a name once ended the command as an internal error.
 TEST_F(Console, JsonCarriesFileNamesThatAreNoText) {
-  const std::string scene = write_text(folder_ / "s\xff.yaml", small_scene("{image: \"p.png\"}"));
+  const std::string scene =
+      write_text(folder_ / "s\xff.yaml", small_scene("{image: \"p.####.png\"}"));
   for (const char* command : {"validate", "plan", "render"}) {
     std::vector<std::string> arguments{command, scene, "--json"};
     if (command == std::string("render"))
