@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "pipeline/disc_of_frame.h"
+#include "plan/effect_planner.h"
 
 namespace skylapse::pipeline {
 namespace {
@@ -47,14 +48,15 @@ SkyIrradiance irradiance_of(const Medium& medium, const plan::Frame& frame,
 }  // namespace
 
 mc::ReferenceOptions reference_options(const plan::Plan& plan, const plan::Frame& frame) {
-  const config::Sky& sky = plan.job.sky;
+  const config::PathSettings& settings = plan.job.sky.paths;
   const uint64_t moment = uint64_t(frame.instant.utc.time_since_epoch().count()) * 2 +
                           uint64_t(frame.instant.leap_second);
-  return {.samples = sky.paths.samples,
-          .relative_error = sky.paths.relative_error,
-          .seed = mixed(mixed(sky.paths.seed) + moment),
-          .max_order = sky.orders,
-          .ground = true};
+  const sky::EffectSet effects = plan::effects_of(plan, frame);
+  return {.samples = settings.samples,
+          .relative_error = settings.relative_error,
+          .seed = mixed(mixed(settings.seed) + moment),
+          .max_order = effects.has(sky::Effect::multiple_scattering) ? plan.job.sky.orders : 1,
+          .ground = effects.has(sky::Effect::ground)};
 }
 
 Result<FrameSky> reference_sky(const plan::Plan& plan, const plan::Frame& frame,
