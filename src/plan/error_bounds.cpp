@@ -32,6 +32,14 @@ const std::array kFeatures{
 /// The lowest sun over the horizontal that scenes of the calibration have.
 constexpr Angle kLowestSun = -12 * deg;
 
+constexpr double kThickHaze = 0.4;
+/// Thick haze, and with it a low sun or a bright ground: too few scenes of the calibration have
+/// them together, and the product of their factors falls short.
+bool is_thick(const SceneFeatures& scene) {
+  return scene.aerosol_depth > kThickHaze &&
+         (scene.sun_elevation < 3 * deg || scene.ground_albedo > 0.6);
+}
+
 ErrorTable read_table() {
   ErrorTable table;
   for (int part = 0; part < kErrorParts; ++part) {
@@ -103,8 +111,12 @@ double typical_square(const ErrorRow& row, const SceneFeatures& scene, const Par
   return square;
 }
 
+bool is_beyond_truth(const SceneFeatures& scene) {
+  return scene.aerosol_depth > kThickHaze && scene.sun_elevation < -2 * deg;
+}
+
 bool within_calibration(const SceneFeatures& scene) {
-  if (scene.sun_elevation < kLowestSun) return false;
+  if (scene.sun_elevation < kLowestSun || is_thick(scene)) return false;
   for (const Feature& feature : std::span(kFeatures).subspan(1)) {
     const double value = feature.value(scene, SkyPart::high);
     if (!(value >= feature.nodes.front() && value <= feature.nodes.back())) return false;

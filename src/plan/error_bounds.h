@@ -56,6 +56,10 @@ const ErrorTable& stored_errors();
 /// Typical mean square of a part of the error over a picture whose sky is shared out so.
 double typical_square(const ErrorRow& row, const SceneFeatures& scene, const PartShares& shares);
 
+/// Whether nothing can be promised: thick haze in twilight, where the path tracer itself does not
+/// settle with the paths of a calibration, so that no error of tables is known.
+bool is_beyond_truth(const SceneFeatures& scene);
+
 /// Whether the scene lies where the table was measured: the nearest of its nodes stand for others.
 bool within_calibration(const SceneFeatures& scene);
 

@@ -88,6 +88,7 @@ double error_bound(const Rung& rung, const PictureScene& scene, const ErrorTable
   }
   const bool known = scene.known_air && within_calibration(scene.features);
   const double bound = (known ? 1 : kUnknownAir) * std::sqrt(square);
+  if (is_beyond_truth(scene.features)) return std::max(bound, 1.0);
   return rung.model == SkyModel::single_scattering ? std::min(bound, 1.0) : bound;
 }
 

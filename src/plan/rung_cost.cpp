@@ -7,6 +7,7 @@
 #include "plan/cost_model.h"
 #include "plan/plan.h"
 #include "plan/rates.h"
+#include "sky/bruneton/sun_range.h"
 
 namespace skylapse::plan {
 namespace {
@@ -25,10 +26,10 @@ double work_of(const Settings& s) {
 }
 
 /// Work of tables over that in clear air, which the rates are of.
-double difficulty(sky::bruneton::Level level, const Medium& medium) {
+double difficulty(sky::bruneton::Level level, const Settings& settings) {
   const auto clear = sky::atmosphere::atmosphere_of({});
   const Medium usual = medium_at(clear.value(), sky::atmosphere::band_edges(1));
-  return work_of(settings_for(level, medium)) / work_of(settings_for(level, usual));
+  return work_of(settings) / work_of(settings_for(level, usual));
 }
 
 Frame frame_of(const PromiseInputs& in, const Picture& picture) {
@@ -72,6 +73,12 @@ double picture_seconds_of(const config::JobConfig& job, const std::vector<Pictur
 RungCost::RungCost(const PromiseInputs& inputs, const std::vector<Picture>& pictures)
     : picture_seconds_(picture_seconds_of(inputs.job, pictures)),
       media_(media_of(inputs, pictures)) {
+  for (const Picture& picture : pictures) {
+    const SceneFeatures& scene = picture.scene.features;
+    lowest_sun_ = std::min(lowest_sun_, scene.sun_elevation);
+    highest_sun_ = std::max(highest_sun_, scene.sun_elevation);
+    highest_camera_ = std::max(highest_camera_, scene.height);
+  }
   const config::JobConfig& job = inputs.job;
   frames_ = double(std::max<size_t>(1, inputs.schedule.times.size() * job.air.turbidity.size() *
                                            job.air.ground_albedo.size() * job.cameras.size()));
@@ -86,8 +93,14 @@ double RungCost::core_seconds(const Rung& rung) const {
   if (rung.model == SkyModel::single_scattering)
     return picture_seconds_ + kSingleShareOfSlice * slice;
   double tables = 0;
-  for (const Medium& medium : media_)
-    tables += rates::table_seconds(plan) * difficulty(rung.level, medium);
+  for (const Medium& medium : media_) {
+    const Settings all = settings_for(rung.level, medium);
+    const auto suns = sky::bruneton::sun_range_for(medium, 90 * deg - highest_sun_,
+                                                   90 * deg - lowest_sun_, highest_camera_);
+    // Sizes beyond those of the level in clear air are work beyond that of the rates.
+    tables +=
+        rates::table_seconds(plan, restricted_to(suns, all, medium)) * difficulty(rung.level, all);
+  }
   return picture_seconds_ + slice + tables / frames_;
 }
 

@@ -22,6 +22,8 @@ class RungCost {
  private:
   double picture_seconds_ = 0;
   std::vector<sky::atmosphere::Medium> media_;  // whose tables are needed, in one band
+  Angle lowest_sun_ = 90 * deg, highest_sun_ = -90 * deg;
+  Length highest_camera_;
   double frames_ = 1;  // of the job, more than there are pictures where those are samples
 };
 

@@ -25,6 +25,8 @@ constexpr double kScatter = 1;
 constexpr int kIterations = 60, kFolds = 5, kCameras = 10;
 /// Share of pictures that stay within the bound; a normal deviate that as many stay below.
 constexpr double kWithin = 0.95, kNormalMargin = 1.65;
+/// Margins from few scenes may be too small: with n of them they grow by the share kFewScenes / n.
+constexpr double kFewScenes = 12;
 /// Mean squares below this are nothing that a promise could hang on.
 constexpr double kNothing = 1e-10;
 
@@ -194,7 +196,8 @@ plan::ErrorTable fit_errors(const std::vector<MeasuredScene>& scenes) {
         with.push_back(&m);
     const auto error = ErrorPart(part);
     table[part] = row_of(fit(observations(with, error)));
-    table[part].margin = error == ErrorPart::fine ? kNormalMargin : margin_of(with, error);
+    table[part].margin = (error == ErrorPart::fine ? kNormalMargin : margin_of(with, error)) *
+                         (1 + kFewScenes / double(with.size()));
   }
   return table;
 }

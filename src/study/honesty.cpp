@@ -10,6 +10,7 @@
 
 #include "astro/ephemeris/ephemeris.h"
 #include "pipeline/frame_sky.h"
+#include "plan/accuracy_choice.h"
 #include "plan/plan.h"
 #include "sky/bruneton/twin.h"
 #include "sky/monte_carlo/reference.h"
@@ -106,7 +107,12 @@ struct Pixel {
 };
 
 /// Pixels of the sky, evenly over its solid angle.
-std::vector<Pixel> pixels_of(const image::Camera& camera, const plan::Frame& frame, int count) {
+std::vector<Pixel> pixels_of(const image::Camera& camera, const plan::Frame& frame,
+                             const sky::atmosphere::AirDescription& air, int count) {
+  // Above the air there is nothing to see from outside it.
+  const double grazing =
+      (air.planet_radius + air.top_height) / (air.planet_radius + frame.camera_height);
+  const Angle highest = grazing < 1 ? -std::acos(grazing) * rad : 90 * deg;
   struct Weighed {
     Pixel pixel;
     double until;
@@ -123,6 +129,7 @@ std::vector<Pixel> pixels_of(const image::Camera& camera, const plan::Frame& fra
                             ? 180 * deg / double(camera.height)
                             : side;
       if (elevation(*toward) < frame.horizon + kFromHorizon * std::max(row, side)) continue;
+      if (elevation(*toward) > highest) continue;
       if (separation(*toward, frame.sun.direction) < 0.5 * deg + side) continue;
       sky.push_back({{x, y, *toward}, all += solid_angle});
     }
@@ -215,7 +222,8 @@ void measure(const HonestyJob& job, const plan::Plan& plan, const image::FrameBu
   const Truth truth(plan.job, plan, frame);
   const long paths = paths_for(plan, job, options);
   double sum = 0, squares = 0, n = 0;
-  for (const Pixel& pixel : pixels_of(plan.job.cameras.front().camera, frame, options.pixels)) {
+  for (const Pixel& pixel : pixels_of(plan.job.cameras.front().camera, frame,
+                                      plan.job.air.description, options.pixels)) {
     const auto halves = truth(pixel.toward, paths, seed * 100'003 + uint64_t(n));
     const float* p = picture.pixel(pixel.x, pixel.y);
     const glm::dvec3 xyz = glm::dvec3(p[0], p[1], p[2]) / frame.sun.distance_factor;
@@ -223,7 +231,10 @@ void measure(const HonestyJob& job, const plan::Plan& plan, const image::FrameBu
     const double square = glm::dot(xyz - halves[0], xyz - halves[1]) / glm::dot(middle, middle);
     sum += square, squares += square * square, n += 1;
   }
-  if (n < 2) return;
+  if (n < 2) {
+    result.refused = "no pixel of the sky stands clear of the horizon";
+    return;
+  }
   const double mean = sum / n,
                spread = std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1));
   result.measured = std::sqrt(std::max(0.0, mean));

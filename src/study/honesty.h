@@ -35,8 +35,8 @@ struct HonestyResult {
 };
 
 struct HonestyOptions {
-  int pixels = 24;           // that are traced
-  long most_paths = 24'000;  // for each of them
+  int pixels = 24;            // that are traced
+  long most_paths = 400'000;  // for each of them
   bool time_best = false;
   gpu::Backend backend = gpu::Backend::automatic;
 };
