@@ -58,8 +58,8 @@ std::string summary_text(const study::StudyResult& study, const std::string& fol
         continue;
       }
       const auto& m = scene.rungs[size_t(i)];
-      text += fmt::format("  {:3.0f} %  {:<32} {:8.1f} ms a frame, {:.2f} % off\n", share * 100,
-                          m.rung.label, cost_of(m).ms, 100 * cost_of(m).error);
+      text += fmt::format("  {:3.0f} %  {:<32} {:8.1f} core ms a frame, {:.2f} % off\n",
+                          share * 100, m.rung.label, cost_of(m).ms, 100 * cost_of(m).error);
     }
   }
   return text + fmt::format("report: {}/report.html ({})", folder, duration_text(study.seconds));
@@ -71,7 +71,7 @@ nlohmann::ordered_json summary_json(const study::StudyResult& study, const std::
     nlohmann::ordered_json front = nlohmann::ordered_json::array(), cheapest;
     for (const size_t i : pareto_front(scene.rungs)) {
       const auto& m = scene.rungs[i];
-      front.push_back({{"rung", m.rung.id}, {"rms", cost_of(m).error}, {"ms", cost_of(m).ms}});
+      front.push_back({{"rung", m.rung.id}, {"rms", cost_of(m).error}, {"core_ms", cost_of(m).ms}});
     }
     for (const auto& [name, share] : {std::pair("1 %", 0.01), std::pair("2 %", 0.02),
                                       std::pair("5 %", 0.05), std::pair("10 %", 0.1)}) {

@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <sys/utsname.h>
 
+#include <cstdlib>
 #include <fstream>
 
 #include "core/parallel.h"
@@ -41,6 +42,8 @@ Machine this_machine() {
     machine.system = std::string(names.sysname) + " " + names.release + " " + names.machine;
   machine.version = kVersion;
   machine.source_hash = kSourceHash;
+  double load = 0;
+  if (getloadavg(&load, 1) == 1) machine.load = load;
   return machine;
 }
 

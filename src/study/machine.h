@@ -12,6 +12,7 @@ struct Machine {
   std::string system;
   std::string version;      // of this program
   std::string source_hash;  // of the sources it was built from
+  double load = 0;  // mean number of busy threads over the last minute, this program's included
 };
 Machine this_machine();
 

@@ -18,13 +18,19 @@ struct Spread {
 /// Linear between the ordered values; all 0 of none.
 Spread spread_of(std::vector<double> values);
 
+/// Times on the clock, and core times: what all threads of the process worked, which other
+/// programs on the machine change little. `sky.time_budget` counts core time.
 struct Timing {
   /// The first frame of a fresh program: context, shaders, tables and the picture. Once.
-  double first_ms = 0;
-  double tables_ms = 0;                // of that, tables of multiple scattering
+  double first_ms = 0, first_core_ms = 0;
+  double tables_ms = 0;                // of first_ms, tables of multiple scattering
   std::vector<double> once_ms;         // further frames: what is computed once a frame ...
   std::vector<double> pixels_ms;       // ... and what goes with its pixels
-  [[nodiscard]] Spread frame() const;  // the two together
+  std::vector<double> core_ms;         // core time of the two together
+  [[nodiscard]] Spread frame() const;  // on the clock, the two together
+  [[nodiscard]] Spread core() const { return spread_of(core_ms); }
+  /// The share of a frame that goes with its pixels.
+  [[nodiscard]] double pixel_share() const;
 };
 
 struct Memory {

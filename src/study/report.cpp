@@ -40,11 +40,15 @@ Json errors_json(const Measurement& m) {
 }
 
 void add_costs(const Measurement& m, Json& j) {
-  const Spread frame = m.timing.frame();
-  j["ms"] = number(frame.median), j["q1"] = number(frame.lower), j["q3"] = number(frame.upper);
-  j["frames"] = frame.count;
-  j["once"] = number(spread_of(m.timing.once_ms).median);
-  j["pixels"] = number(spread_of(m.timing.pixels_ms).median);
+  const Spread core = m.timing.core();
+  const double with_pixels = core.median * m.timing.pixel_share();
+  j["ms"] = number(core.median), j["q1"] = number(core.lower), j["q3"] = number(core.upper);
+  j["frames"] = core.count;
+  j["once"] = number(core.median - with_pixels), j["pixels"] = number(with_pixels);
+  j["clock"] = number(m.timing.frame().median);
+  // What the first frame takes beyond a further one: context, shaders, tables.
+  const bool prepares = m.memory.table_bytes > 0 || !m.renderer.empty();
+  j["prepare"] = prepares ? number(std::max(0.0, m.timing.first_core_ms - core.median)) : Json(0);
   j["first"] = number(m.timing.first_ms), j["tables"] = number(m.timing.tables_ms);
   j["table_mb"] = number(double(m.memory.table_bytes) / 1e6);
   j["rise_mb"] = m.memory.peak_rise ? number(double(*m.memory.peak_rise) / 1e6) : Json(nullptr);
@@ -59,9 +63,13 @@ class Report {
   Result<Json> data() const {
     Json j;
     const Machine& machine = study_.machine;
-    j["machine"] = {{"cpu", machine.cpu},         {"cores", machine.cores},
-                    {"system", machine.system},   {"renderer", study_.renderer},
-                    {"version", machine.version}, {"source", machine.source_hash.substr(0, 12)}};
+    j["machine"] = {{"cpu", machine.cpu},
+                    {"cores", machine.cores},
+                    {"load", number(machine.load)},
+                    {"system", machine.system},
+                    {"renderer", study_.renderer},
+                    {"version", machine.version},
+                    {"source", machine.source_hash.substr(0, 12)}};
     j["date"] = study_.date, j["command"] = study_.command, j["seconds"] = number(study_.seconds);
     j["quick"] = study_.quick, j["rounds"] = study_.rounds;
     j["noise"] = study_.truth.noise, j["wavelengths"] = study_.truth.wavelengths;

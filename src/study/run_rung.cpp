@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "color/exposure.h"
 #include "color/rgb_space.h"
@@ -43,9 +44,16 @@ image::Camera camera_of(const StudyScene& scene, const Rung& rung) {
                             : study_camera(scene.geometry.sun);
 }
 
-void add_times(const StageTimes& times, const Rung& rung, Timing& timing) {
-  timing.once_ms.push_back(times[Stage::atmosphere]);
-  timing.pixels_ms.push_back((times[Stage::sky] + times[Stage::disc]) * pixel_factor(rung));
+/// Core time of this process [ms].
+double core_milliseconds() { return 1000.0 * double(std::clock()) / CLOCKS_PER_SEC; }
+
+/// `core_ms` of a frame is divided as its time on the clock is.
+void add_times(const StageTimes& times, double core_ms, const Rung& rung, Timing& timing) {
+  const double once = times[Stage::atmosphere], pixels = times[Stage::sky] + times[Stage::disc];
+  timing.once_ms.push_back(once);
+  timing.pixels_ms.push_back(pixels * pixel_factor(rung));
+  const double share = once + pixels > 0 ? pixels / (once + pixels) : 0;
+  timing.core_ms.push_back(core_ms * (1 + share * (pixel_factor(rung) - 1)));
 }
 
 /// Display-encoded sRGB of scene-linear light.
@@ -116,9 +124,10 @@ Status render_more(const plan::Plan& plan, const plan::Frame& frame, AtmosphereS
                    int count, Measurement& out) {
   for (int i = 0; i < count; ++i) {
     StageTimes times;
+    const double before = core_milliseconds();
     const auto again = render_frame(plan, frame, service, false, times);
     if (!again) return again.error();
-    add_times(times, out.rung, out.timing);
+    add_times(times, core_milliseconds() - before, out.rung, out.timing);
   }
   return Done{};
 }
@@ -152,6 +161,11 @@ Spread Timing::frame() const {
   return spread_of(std::move(sums));
 }
 
+double Timing::pixel_share() const {
+  const double once = spread_of(once_ms).median, pixels = spread_of(pixels_ms).median;
+  return once + pixels > 0 ? pixels / (once + pixels) : 0;
+}
+
 Result<plan::Plan, Diagnostics> plan_of_rung(const StudyScene& scene, const Rung& rung,
                                              const image::Camera& camera) {
   auto job = job_of_rung(rung, scene.load);
@@ -177,6 +191,7 @@ Measurement measure_rung(const StudyScene& scene, const Rung& rung, const RunSet
 
   const MemoryRise memory;
   const auto start = std::chrono::steady_clock::now();
+  const double core_start = core_milliseconds();
   AtmosphereService service(*plan, settings.backend, {}, TableCache(fresh));
   StageTimes times;
   auto rendered = render_frame(*plan, frame, service, true, times);
@@ -184,6 +199,7 @@ Measurement measure_rung(const StudyScene& scene, const Rung& rung, const RunSet
   // A small picture's pixels are counted up; what comes before them is not.
   const double pixels = times[Stage::sky] + times[Stage::disc];
   out.timing.first_ms = milliseconds_since(start) + pixels * (pixel_factor(rung) - 1);
+  out.timing.first_core_ms = core_milliseconds() - core_start;
   out.memory.peak_rise = memory.bytes();
   if (const auto record = service.record()) {
     out.renderer = record->context.renderer;

@@ -1,5 +1,6 @@
 #include "study/sky_sample.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -54,11 +55,12 @@ class Sampler {
       const int width = kBase * (high ? 3 : columns);
       for (int x = 0; x + width <= kHalf; x += width) {
         const Cell cell{x, y, width, kBase};
-        base_ = cell;
+        const size_t first = points_.size();
         if (lowest)
           add_ring(cell);
         else
           add(cell);
+        share_among_small_pixels(cell, first);
       }
     }
     add_below_level(columns);
@@ -66,6 +68,16 @@ class Sampler {
   }
 
  private:
+  /// The points from `first` on are those of a cell of the base grid: its solid angle belongs to
+  /// the pixels of the small map among them, one or three.
+  void share_among_small_pixels(const Cell& base, size_t first) {
+    const auto in_small = [](const SamplePoint& p) { return p.small_x >= 0; };
+    const auto begin = points_.begin() + long(first);
+    const long count = std::count_if(begin, points_.end(), in_small);
+    for (auto p = begin; p != points_.end(); ++p)
+      if (in_small(*p)) p->small_solid_angle = solid_angle_of(camera_, base) / double(count);
+  }
+
   /// Rows of the ring, from its top: 5 pixels, 5, 1, 3, 1.
   void add_ring(const Cell& ring) {
     int y = ring.y;
@@ -112,8 +124,7 @@ class Sampler {
     p.solid_angle = solid_angle_of(camera_, cell);
     const bool level = p.y < kStudyHeight / 2;
     if (level && p.x % kBase == kBase / 2 && p.y % kBase == kBase / 2)
-      p.small_x = p.x / kBase, p.small_y = p.y / kBase,
-      p.small_solid_angle = solid_angle_of(camera_, base_);
+      p.small_x = p.x / kBase, p.small_y = p.y / kBase;
     points_.push_back(p);
   }
 
@@ -121,7 +132,6 @@ class Sampler {
   Sampling sampling_;
   image::Camera camera_;
   int end_row_ = 0;
-  Cell base_{};  // the cell of the base grid that is being cut
   std::vector<SamplePoint> points_;
 };
 

@@ -27,7 +27,7 @@ struct StudyResult {
 };
 
 /// Where a rung stands for the front: its error, not taken for less than the truth can tell
-/// (ErrorMeasure::rms_uncertainty), and the time of one frame after the first.
+/// (ErrorMeasure::rms_uncertainty), and the core time of one frame after the first.
 struct CostPoint {
   double ms = 0, error = 0;
 };

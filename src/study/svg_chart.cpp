@@ -63,9 +63,9 @@ std::string escaped(const std::string& text) {
 
 std::string time_text(double ms) {
   if (ms < 1) return fmt::format("{:.2g} ms", ms);
-  if (ms < 10) return fmt::format("{:.1f} ms", ms);
+  if (ms < 10) return fmt::format("{:.2g} ms", ms);
   if (ms < 1000) return fmt::format("{:.0f} ms", ms);
-  if (ms < 10'000) return fmt::format("{:.1f} s", ms / 1000);
+  if (ms < 10'000) return fmt::format("{:.2g} s", ms / 1000);
   if (ms < 120'000) return fmt::format("{:.0f} s", ms / 1000);
   if (ms < 7'200'000) return fmt::format("{:.0f} min", ms / 60'000);
   return fmt::format("{:.0f} h", ms / 3'600'000);

@@ -23,7 +23,7 @@ const measured = scene => scene.rungs.filter(r => !r.skipped && r.rms !== null);
 const kLevels = [0.01, 0.02, 0.05, 0.1];
 const pixelsOf = () => data.pixels * Math.pow(10, byId("size").value / 30);
 const manyOf = () => Math.round(Math.pow(10, byId("many").value / 10));
-const timeOf = (r, pixels, many) => r.once + r.pixels * pixels / data.pixels + r.tables / many;
+const timeOf = (r, pixels, many) => r.once + r.pixels * pixels / data.pixels + r.prepare / many;
 const cheapest = (scene, level, pixels, many) => {
   let best = null;
   for (const r of measured(scene)) {
@@ -35,7 +35,7 @@ const cheapest = (scene, level, pixels, many) => {
 function showAnswers() {
   const pixels = pixelsOf(), many = manyOf();
   byId("size-text").textContent = (pixels / 1e6).toPrecision(2) + " megapixels";
-  byId("many-text").textContent = many === 1 ? "1: tables for one frame" : many.toLocaleString("en");
+  byId("many-text").textContent = many === 1 ? "1" : many.toLocaleString("en");
   const head = make("tr", {}, make("th", {scope: "col"}, "Scene"),
     ...kLevels.map(l => make("th", {scope: "col"}, "within " + percent(l))));
   const rows = data.scenes.map(scene => make("tr", {},
@@ -59,7 +59,7 @@ const kFacts = [["error, rms", r => error(r)], ["95 % are below", r => percent(r
   ["away from the sun", r => percent(r.anti_solar)], ["sun's disc", r => percent(r.disc)],
   ["sky on level ground", r => percent(r.irradiance)], ["mean \u0394E", r => digits(r.de)], ["\u0394u'v', rms", r => digits(r.duv)],
   ["sun's place", r => r.arcsec < 0.005 ? "same" : r.arcsec < 100 ? digits(r.arcsec) + "\u2033" : digits(r.arcsec / 3600) + "\u00b0"],
-  ["frame", r => time(r.ms)], ["quartiles", r => time(r.q1) + " to " + time(r.q3)], ["first frame", r => time(r.first)],
+  ["frame, core time", r => time(r.ms)], ["quartiles", r => time(r.q1) + " to " + time(r.q3)], ["frame, on the clock", r => time(r.clock)], ["first frame", r => time(r.first)],
   ["tables", r => r.tables ? time(r.tables) + ", " + megabytes(r.table_mb) + " MB" : "none"],
   ["memory rise", r => r.rise_mb === null ? "not known" : megabytes(r.rise_mb) + " MB"]];
 const picture = (url, alt, caption) => make("div", {}, make("img", {src: url, alt, width: 128, height: 128}), caption);
@@ -116,7 +116,8 @@ const kColumns = [["Rung", x => x.r.label, x => x.r.label], ["Scene", x => x.sce
   ["Away from the sun", x => percent(x.r.anti_solar), x => x.r.anti_solar], ["Disc", x => percent(x.r.disc), x => x.r.disc],
   ["Irradiance", x => percent(x.r.irradiance), x => x.r.irradiance], ["\u0394u'v'", x => digits(x.r.duv), x => x.r.duv],
   ["\u0394E", x => digits(x.r.de), x => x.r.de], ["\u0394E 95 %", x => digits(x.r.de_p95), x => x.r.de_p95],
-  ["Sun, arcsec", x => digits(x.r.arcsec), x => x.r.arcsec], ["Frame", x => time(x.r.ms), x => x.r.ms],
+  ["Sun, arcsec", x => digits(x.r.arcsec), x => x.r.arcsec], ["Frame, core time", x => time(x.r.ms), x => x.r.ms],
+  ["Frame, clock", x => time(x.r.clock), x => x.r.clock],
   ["First frame", x => time(x.r.first), x => x.r.first], ["Tables", x => x.r.tables ? time(x.r.tables) : "", x => x.r.tables],
   ["Tables, MB", x => megabytes(x.r.table_mb), x => x.r.table_mb], ["Rise, MB", x => megabytes(x.r.rise_mb), x => x.r.rise_mb]];
 let sortBy = 2, up = true;
@@ -147,7 +148,7 @@ for (const g of data.groups)
 for (const id of ["by-scene", "by-group", "by-text", "by-front"]) byId(id).addEventListener("input", showTable);
 
 const m = data.machine;
-byId("machine").textContent = `${data.command} - ${data.date}, ${time(1000 * data.seconds)}. ${m.cpu}, ${m.cores} cores, ${m.system}; ` +
+byId("machine").textContent = `${data.command} - ${data.date}, ${time(1000 * data.seconds)}. ${m.cpu}, ${m.cores} cores, ${m.system}, ${digits(m.load)} threads busy when it began; ` +
   `GL: ${m.renderer || "not used"}; skylapse ${m.version}, sources ${m.source}. ` +
   `Truth in ${data.wavelengths} wavelengths: ` + data.scenes.map(s => `${s.id} ${s.directions} directions, ${s.paths.toLocaleString("en")} paths` +
   (s.truth_kept ? " (kept from an earlier run)" : ` in ${time(1000 * s.truth_seconds)}`)).join("; ") + ".";
