@@ -32,7 +32,8 @@ std::optional<SkyPart> part_of(const Direction<Enu>& view, const Direction<Enu>&
 /// Share of the solid angle of a picture's sky in each part; all 0 if it shows none.
 using PartShares = std::array<double, kSkyParts>;
 
-/// A camera as a few hundred directions: what it sees of the sky for a sun anywhere.
+/// A camera as a few hundred directions, or as many thousand where few of those fall into the sky
+/// (the limb from orbit is thin): what it sees of the sky for a sun anywhere.
 class CameraSky {
  public:
   explicit CameraSky(const image::Camera& camera);
@@ -48,7 +49,9 @@ class CameraSky {
     Angle elevation;
     double solid_angle;
   };
-  std::vector<Look> looks_;
+  using Looks = std::vector<Look>;
+  static Looks looks_of(const image::Camera& camera, int cells);
+  Looks coarse_, fine_;
 };
 
 }  // namespace skylapse::plan

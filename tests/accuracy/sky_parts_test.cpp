@@ -49,6 +49,16 @@ TEST(SkyParts, SunInTheZenithLeavesNoDirectionOut) {
   EXPECT_FALSE(part_of(enu_direction(0 * deg, -1 * deg), sun, 0 * deg));
 }
 
+TEST(SkyParts, ThinLimbFromOrbitIsSeenByAMap) {
+  image::Camera map;
+  map.projection = image::Projection::lat_long;
+  map.width = 512, map.height = 256;  // looks of 9 deg pass by a ring of 3 deg
+  const auto sun = enu_direction(180 * deg, -40 * deg);
+  const auto shares = CameraSky(map).shares(sun, -19.8 * deg, -16.9 * deg);
+  EXPECT_NEAR(shares[size_t(SkyPart::horizon_away)], 0.5, 0.02);
+  EXPECT_NEAR(shares[size_t(SkyPart::horizon_sunward)], 0.5, 0.02);
+}
+
 TEST(SkyParts, BlackSpaceAboveTheAirDoesNotCount) {
   image::Camera camera;
   camera.width = camera.height = 200;
