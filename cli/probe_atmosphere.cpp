@@ -200,9 +200,9 @@ Result<std::unique_ptr<Responder>> responder_of(const AtmosphereProbeArguments& 
                                                 const Medium& medium, const Device& device) {
   if (arguments.model == "reference") {
     sky::monte_carlo::ReferenceOptions options;
-    const bool until = arguments.relative_error > 0;
+    const bool until = arguments.relative_error.has_value();
     options.samples = arguments.samples.value_or(until ? 100'000'000 : 100'000);
-    options.seed = arguments.seed;
+    options.seed = uint64_t(arguments.seed);
     if (until) options.relative_error = arguments.relative_error;
     return std::unique_ptr<Responder>(std::make_unique<ReferenceResponder>(medium, options));
   }
@@ -277,13 +277,15 @@ Status check_options(const AtmosphereProbeArguments& arguments) {
   if (arguments.precision != "float" && arguments.precision != "double")
     return option_error("--precision", fmt::format("'{}' is unknown", arguments.precision),
                         "allowed: float (GL), double (CPU)");
-  if (arguments.samples.value_or(1) < 1)
+  if (arguments.samples.value_or(2) < 2)
     return option_error("--samples", fmt::format("{} is out of range", *arguments.samples),
-                        "allowed: 1 and more");
-  if (!(arguments.relative_error >= 0 && arguments.relative_error < 1))
-    return option_error("--relative-error",
-                        fmt::format("{} is out of range", arguments.relative_error),
+                        "allowed: 2 and more, for a standard error");
+  if (const auto e = arguments.relative_error; e && !(*e > 0 && *e < 1))
+    return option_error("--relative-error", fmt::format("{} is out of range", *e),
                         "allowed: more than 0, less than 1");
+  if (arguments.seed < 0)
+    return option_error("--seed", fmt::format("{} is out of range", arguments.seed),
+                        "allowed: 0 and more");
   return Done{};
 }
 

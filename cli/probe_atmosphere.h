@@ -16,8 +16,8 @@ struct AtmosphereProbeArguments {
   std::string precision = "float";
   std::string backend = "auto";
   std::optional<long> samples;  // none: 100 000, or with a relative error at most 100 000 000
-  double relative_error = 0;    // 0: not asked for
-  unsigned long long seed = 1;
+  std::optional<double> relative_error;
+  long seed = 1;
 };
 
 bool is_atmosphere_model(const std::string& model);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
@@ -17,9 +18,9 @@ struct StudyArguments {
   std::string config, output, backend = "auto", frames;
   std::vector<std::string> scenes;
   bool quick = false;
-  int repeats = 0;
+  std::optional<int> repeats;
   long seed = 1;
-  double noise = 0;
+  std::optional<double> noise;
 };
 
 std::atomic<int> g_signal = 0;  // the only thing a signal handler may touch
@@ -40,9 +41,9 @@ std::string command_of(const StudyArguments& a) {
   if (a.quick) text += " --quick";
   if (!a.scenes.empty()) text += fmt::format(" --scenes {}", fmt::join(a.scenes, ","));
   if (!a.frames.empty()) text += " --frames " + a.frames;
-  if (a.repeats > 0) text += fmt::format(" --repeats {}", a.repeats);
+  if (a.repeats) text += fmt::format(" --repeats {}", *a.repeats);
   if (a.seed != 1) text += fmt::format(" --seed {}", a.seed);
-  if (a.noise > 0) text += fmt::format(" --noise {}", a.noise);
+  if (a.noise) text += fmt::format(" --noise {}", *a.noise);
   return text + " --output " + a.output;
 }
 
@@ -107,15 +108,15 @@ Result<study::StudyOptions, Diagnostics> options_of(const StudyArguments& a) {
   if (!a.config.empty() && !a.scenes.empty())
     return refuse("--scenes", "belongs to the scenes that come with the program",
                   "leave out the config or --scenes");
-  if (a.repeats < 0 || a.repeats > 100)
-    return refuse("--repeats", fmt::format("{} is out of range", a.repeats), "allowed: 1 to 100");
+  if (a.repeats && (*a.repeats < 1 || *a.repeats > 100))
+    return refuse("--repeats", fmt::format("{} is out of range", *a.repeats), "allowed: 1 to 100");
   if (a.seed < 0 || a.seed > 1'000'000'000)
     return refuse("--seed", fmt::format("{} is out of range", a.seed), "allowed: 0 to 1000000000");
-  if (a.noise != 0 && !(a.noise >= 0.01 && a.noise <= 20))
-    return refuse("--noise", fmt::format("{} is out of range", a.noise),
+  if (a.noise && !(*a.noise >= 0.01 && *a.noise <= 20))
+    return refuse("--noise", fmt::format("{} is out of range", *a.noise),
                   "allowed: 0.01 to 20 percent");
-  options.rounds = a.repeats, options.seed = uint64_t(a.seed);
-  if (a.noise > 0) options.noise = a.noise / 100;
+  options.rounds = a.repeats.value_or(0), options.seed = uint64_t(a.seed);
+  if (a.noise) options.noise = *a.noise / 100;
   if (!a.frames.empty()) {
     if (a.config.empty())
       return refuse("--frames", "belongs to a config", "name a config, or choose by --scenes");

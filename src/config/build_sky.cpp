@@ -58,10 +58,17 @@ const std::vector<KeyOwners>& key_owners() {
 /// Keys that another model has.
 void refuse_keys_without_effect(const Section& section, SkyModel model,
                                 const ReadContext& context) {
-  if (model == SkyModel::automatic) return;
+  const auto obeyed = [&](const KeyOwners& owner) {
+    if (model != SkyModel::automatic)
+      return std::ranges::find(owner.models, model) != owner.models.end();
+    // `auto` never takes these two by itself.
+    return std::ranges::any_of(
+               owner.models,
+               [](SkyModel m) { return m != SkyModel::reference && m != SkyModel::cie; }) ||
+           owner.models.empty();
+  };
   for (const KeyOwners& owner : key_owners()) {
-    if (!section.has(owner.key) || std::ranges::find(owner.models, model) != owner.models.end())
-      continue;
+    if (!section.has(owner.key) || obeyed(owner)) continue;
     context.errors.add(section.field(owner.key)->key_place,
                        fmt::format("{} has no effect here", section.path_of(owner.key)),
                        fmt::format("it belongs to {}", owner.named));
@@ -96,6 +103,18 @@ EffectChoice effects_of(const Section& section, const ReadContext& context) {
     choice.listed.push_back(*value_of(sky::kEffectNames, word));
   }
   return choice;
+}
+
+/// What is left out by a list is in no calibrated bound.
+void refuse_list_beside_a_promise(const Section& section, const Sky& sky,
+                                  const ReadContext& context) {
+  if (sky.effects.rule != EffectChoice::Rule::listed) return;
+  for (const std::string_view promise : {"accuracy", "time_budget"})
+    if (section.has(promise))
+      context.errors.add(section.field("effects")->key_place,
+                         fmt::format("a list of {} beside {}", section.path_of("effects"),
+                                     section.path_of(promise)),
+                         "a promise is about the whole sky: write effects: auto or all");
 }
 
 /// Below the least numbers the two halves of the table have no shape; above the greatest it is
@@ -153,6 +172,11 @@ Sky build_sky(const Section& root, const ReadContext& context) {
   sky.sun_disc = section->get<bool>("sun_disc").value_or(sky.sun_disc);
   refuse_keys_without_effect(*section, sky.model, context);
   refuse_means_beside_a_promise(*section, context);
+  refuse_list_beside_a_promise(*section, sky, context);
+  for (const std::string_view key : {"orders", "steps", "slice", "precision"})
+    if (section->has(key) && !sky.needs_atmosphere)
+      sky.needs_atmosphere = Spanned<std::string>{
+          section->path_of(key), context.sources.span(section->field(key)->key_place)};
   return sky;
 }
 

@@ -170,6 +170,8 @@ struct Sky {
   sky::hosek_wilkie::SolarFlux solar_flux = sky::hosek_wilkie::SolarFlux::reference;
   bool sun_disc = true;
   astro::SunAlgorithm sun_algorithm = astro::SunAlgorithm::erfa;
+  /// As Air::needs_atmosphere: the first such key of the section.
+  std::optional<Spanned<std::string>> needs_atmosphere;
 };
 
 struct CameraConfig {

@@ -101,11 +101,12 @@ const SectionSpec& sky_spec() {
                    "half floats, or the processor in double."},
               {.name = "samples",
                .kind = K::integer,
-               .min = "1",
+               .min = "2",
                .max = "1000000000",
-               .default_text = "1024",
                .example = "4096",
-               .doc = "Paths a pixel of `reference`; beside relative_error, at most."},
+               .doc = "Paths a pixel of `reference`, 1024 if not given (one has no standard "
+                      "error); beside "
+                      "relative_error, at most."},
               {.name = "relative_error",
                .kind = K::quantity,
                .dimension = D::share,
@@ -119,18 +120,16 @@ const SectionSpec& sky_spec() {
                .kind = K::integer,
                .min = "0",
                .max = "1000000000",
-               .default_text = "1",
                .example = "7",
-               .doc = "Of the random numbers of `reference`."},
+               .doc = "Of the random numbers of `reference`; 1 if not given."},
               {.name = "cie_type",
                .kind = K::integer,
                .min = "1",
                .max = "15",
-               .default_text = "12",
                .example = "5",
-               .doc =
-                   "Which of the fifteen skies of the CIE general sky: 1 overcast, 5 uniform, 12 "
-                   "clear, 15 clear and turbid with a broad corona."},
+               .doc = "Which of the fifteen skies of the CIE general sky, 12 if not given: 1 "
+                      "overcast, 5 uniform, 12 "
+                      "clear, 15 clear and turbid with a broad corona."},
               {.name = "fit",
                .kind = K::word,
                .words = words_of(kFitWords),

@@ -1,5 +1,6 @@
 #include "plan/picture_scenes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "plan/plan.h"
@@ -21,6 +22,17 @@ Frame frame_of(const ScheduledTime& time, int turbidity, int albedo) {
   return frame;
 }
 
+/// A map of all directions.
+const CameraSky& whole_sky() {
+  static const CameraSky sky = [] {
+    image::Camera map;
+    map.projection = image::Projection::lat_long;
+    map.width = 720, map.height = 360;
+    return CameraSky(map);
+  }();
+  return sky;
+}
+
 /// The scene as one camera sees it.
 PictureScene scene_of(const PromiseInputs& in, const Picture& picture, const CameraSky& camera) {
   const ScheduledTime& time = in.schedule.times[picture.time];
@@ -36,6 +48,9 @@ PictureScene scene_of(const PromiseInputs& in, const Picture& picture, const Cam
                     in.job.air.ground_albedo[picture.albedo].value.value,
                     air.ozone_du};
   scene.shares = camera.shares(sun, horizon, highest_air(height, air));
+  // A picture of the ground alone: what lights it is the sky, so the whole of that is promised.
+  if (std::ranges::all_of(scene.shares, [](double share) { return share == 0; }))
+    scene.shares = whole_sky().shares(sun, horizon, highest_air(height, air));
   scene.known_air = is_known_air(air);
   return scene;
 }

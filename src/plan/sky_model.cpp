@@ -19,9 +19,10 @@ std::string place_of(const config::JobConfig& job, const SourceSpan& span) {
 
 /// Why the config alone rules Hosek-Wilkie out; nothing if it does not.
 std::optional<std::string> reason_in_config(const config::JobConfig& job) {
-  if (const auto& key = job.air.needs_atmosphere)
-    return fmt::format("{}{} is known to a computed atmosphere only", key->value,
-                       place_of(job, key->span));
+  for (const auto* key : {&job.air.needs_atmosphere, &job.sky.needs_atmosphere})
+    if (*key)
+      return fmt::format("{}{} is known to a computed atmosphere only", (*key)->value,
+                         place_of(job, (*key)->span));
   for (const config::Site& site : job.sites)
     if (site.position.height > kNearGround)
       return fmt::format("site '{}' is {:.0f} m high, and hosek-wilkie stands on the ground",

@@ -156,11 +156,32 @@ TEST(Promise, TablesAreSharedByTheFramesOfAJob) {
 }
 
 TEST(Promise, MeansBesideThePromiseAreRefused) {
-  for (const char* means : {"level: fine", "wavelengths: 8", "orders: 3", "fit: rgb"}) {
+  for (const char* means :
+       {"level: fine", "wavelengths: 8", "orders: 3", "fit: rgb", "effects: [sun-disc]"}) {
     const auto plan = plan_of(job_text(std::string("accuracy: 5 %, ") + means, kNoon));
     ASSERT_FALSE(plan) << means;
     EXPECT_THAT(plan.error().front().message, HasSubstr("beside")) << means;
   }
+}
+
+TEST(Promise, PictureOfTheGroundAloneIsPromisedTheWholeSky) {
+  std::string text = job_text("accuracy: 2 %", kNoon);
+  const std::string map = "projection: lat-long, size: 256x128";
+  text.replace(text.find(map), map.size(), "look_at: nadir, fov: 40 deg, size: 160x90");
+  const auto plan = plan_of(text);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->model, config::SkyModel::bruneton);
+  EXPECT_GT(plan->promise->taken.error, 0);
+}
+
+TEST(SkyModelChoice, KeysOfAnAtmosphereAreWhatTheConfigAsksFor) {
+  for (const char* key : {"orders: 2", "steps: 8", "slice: 32x64", "precision: double"}) {
+    const auto plan = plan_of(job_text(key, kNoon));
+    ASSERT_TRUE(plan) << key;
+    EXPECT_EQ(plan->model, config::SkyModel::bruneton) << key;
+  }
+  for (const char* key : {"samples: 8", "seed: 2", "cie_type: 5"})
+    EXPECT_FALSE(plan_of(job_text(key, kNoon))) << key;
 }
 
 }  // namespace
