@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/sha256.h"
+#include "pipeline/disc_of_frame.h"
 #include "plan/atmosphere_of_frame.h"
 #include "plan/effect_planner.h"
 #include "plan/table_settings.h"
@@ -89,19 +90,10 @@ auto apart(const Work& work) {
   return *std::move(result);
 }
 
-/// Transmittance over the disc's elevations above the horizon, in steps far below those in which it
-/// changes: on the horizon it falls by a factor of e in about a degree.
 std::optional<sky::AtmosphereDisc> disc_of(const Twin& twin, const plan::Frame& frame) {
-  constexpr int kSteps = 32;
-  const Angle centre = elevation(frame.sun.direction), radius = frame.sky.sun_radius;
-  if (centre + radius <= frame.horizon) return {};
-  const Angle lowest = std::max(frame.horizon, centre - radius);
-  const Angle step = std::max((centre + radius - lowest) / kSteps, 1e-9 * rad);
-  std::vector<std::vector<double>> transmittance;
-  for (int i = 0; i <= kSteps; ++i)
-    transmittance.push_back(
-        twin.transmittance(frame.camera_height, 90 * deg - (lowest + double(i) * step)));
-  return sky::AtmosphereDisc(twin.medium(), radius, lowest, step, transmittance);
+  return disc_of_frame(twin.medium(), frame, [&](Angle zenith) {
+    return twin.transmittance(frame.camera_height, zenith);
+  });
 }
 
 /// That of sky.slice, or the model's own for this height.
