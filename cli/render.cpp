@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <atomic>
 #include <csignal>
 
 #include "cli/arguments.h"
@@ -8,6 +7,7 @@
 #include "cli/job_arguments.h"
 #include "cli/plan_text.h"
 #include "cli/progress.h"
+#include "cli/signals.h"
 #include "pipeline/run_job.h"
 
 namespace skylapse::cli {
@@ -20,18 +20,6 @@ struct RenderArguments {
   bool overwrite = false;
   bool dry_run = false;
 };
-
-std::atomic<int> g_signal = 0;  // the only thing a signal handler may touch
-
-void on_signal(int signal) { g_signal = signal; }
-
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = on_signal;
-  action.sa_flags = SA_RESETHAND;  // a second signal ends the process at once
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 std::string summary_text(const pipeline::RunSummary& summary, const std::string& folder) {
   std::string text = fmt::format(

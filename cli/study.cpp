@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <atomic>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/plan_text.h"
 #include "cli/progress.h"
+#include "cli/signals.h"
 #include "study/run_study.h"
 
 namespace skylapse::cli {
@@ -22,18 +22,6 @@ struct StudyArguments {
   long seed = 1;
   std::optional<double> noise;
 };
-
-std::atomic<int> g_signal = 0;  // the only thing a signal handler may touch
-
-void on_signal(int signal) { g_signal = signal; }
-
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = on_signal;
-  action.sa_flags = SA_RESETHAND;  // a second signal ends the process at once
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 std::string command_of(const StudyArguments& a) {
   std::string text = "skylapse study";
