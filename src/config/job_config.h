@@ -13,6 +13,7 @@
 #include "color/exposure.h"
 #include "core/result.h"
 #include "image/camera/camera.h"
+#include "image/orientation.h"
 #include "output/image_writer.h"
 #include "sky/atmosphere/atmosphere.h"
 #include "sky/bruneton/settings.h"
@@ -58,7 +59,12 @@ struct ElevationStep {
 struct ExplicitTimes {
   std::vector<TimeExpression> times;
 };
-using Sampling = std::variant<FixedStep, FrameCount, ElevationStep, ExplicitTimes>;
+struct SunElevations {
+  enum class Half { morning, afternoon, both };
+  std::vector<Angle> elevations;  // true elevations of the sun, in the order written
+  Half half = Half::both;         // rising before the day's culmination, or sinking after it
+};  // each moment of a day when the sun stands there; days without it are noted and passed over
+using Sampling = std::variant<FixedStep, FrameCount, ElevationStep, ExplicitTimes, SunElevations>;
 
 struct TimePlan {
   std::optional<Spanned<std::string>> zone;
@@ -189,6 +195,7 @@ struct ColorConfig {
 /// What the values of an image are.
 enum class ImageContent {
   radiance,
+  sky,             // radiance without the sun's disc, whatever the effects say
   standard_error,  // of the radiance without the sun's disc, of the model `reference`
 };
 
@@ -196,6 +203,10 @@ struct ImageOutput {
   Spanned<std::string> path;  // template, relative to the output folder
   std::string format;         // "exr", "hdr", "png", "jpg", "tif", by the extension
   ImageContent content = ImageContent::radiance;
+  /// The output's own view of the frame's sky, instead of that of the frame's camera. Its heading
+  /// is that of `orientation`, else of the frame's camera where that one is a map or cube.
+  std::optional<CameraConfig> own_view;
+  std::optional<image::Orientation> orientation;
   output::SampleType sample_type = output::SampleType::float32;
   output::SunPolicy sun_policy = output::SunPolicy::clip;  // of formats that cannot hold the disc
   // Display-referred if and only if there is a view; an empty one is the display's default.
@@ -206,6 +217,45 @@ struct ImageOutput {
   SourceSpan view_span{}, sun_policy_span{};
 };
 
+/// What a renderer wants of a sky beside its picture.
+enum class ProductKind {
+  specular,    // cube with mips, filtered by GGX of growing roughness
+  irradiance,  // map of the irradiance of a surface by its normal
+  harmonics,   // spherical harmonics L0 to L2: JSON
+  sun,         // the sun as a light of its own: JSON or USD
+  dome,        // USD dome light that names the map of another output
+};
+
+/// One file (or six faces) per frame, made from the frame's sky.
+struct ProductOutput {
+  ProductKind kind = ProductKind::harmonics;
+  Spanned<std::string> path;
+  std::string format;  // "ktx2", "exr", "hdr", "json", "usda"
+  output::SampleType sample_type = output::SampleType::half_float;
+  /// Of `specular` and `irradiance`: a cube or lat-long camera; its size is that of the first
+  /// level.
+  std::optional<CameraConfig> view;
+  int levels = 0;  // of `specular`: roughness 0 to 1; 0: down to 4 pixels a face
+  image::Orientation orientation = image::Orientation::openexr;
+  bool sun_disc = true;           // of `specular`, `irradiance`, `harmonics`: with the disc's light
+  Spanned<std::string> map_path;  // of `dome`: the path of the image output that it shows
+};
+
+/// What a folder of skies is looked through with.
+enum class LibraryKind {
+  gallery,  // a page of all frames: HTML
+  sheet,    // contact sheet with labels
+};
+
+/// One file for the whole job, made when all frames are there.
+struct LibraryOutput {
+  LibraryKind kind = LibraryKind::gallery;
+  Spanned<std::string> path;
+  std::string format;               // "html", "png", "jpg"
+  Spanned<std::string> image_path;  // the path of the display-referred image output that it shows
+  int columns = 0;                  // of `sheet`; 0: by the number of frames
+};
+
 struct MovieOutput {
   Spanned<std::string> path;
   double frames_per_second = 30;
@@ -214,7 +264,17 @@ struct MovieOutput {
   SourceSpan view_span{};  // of `view`, else `display`, else the path
 };
 
-using Output = std::variant<ImageOutput, MovieOutput>;
+using Output = std::variant<ImageOutput, MovieOutput, ProductOutput, LibraryOutput>;
+
+/// Whether an output has files for each frame; the others are made of all frames.
+inline bool is_per_frame(const Output& output) {
+  return std::holds_alternative<ImageOutput>(output) ||
+         std::holds_alternative<ProductOutput>(output);
+}
+
+inline const Spanned<std::string>& path_of(const Output& output) {
+  return std::visit([](const auto& o) -> const Spanned<std::string>& { return o.path; }, output);
+}
 
 /// More frames than this in one job are refused: more than a year at one a minute.
 inline constexpr long kMaxJobFrames = 1'000'000;

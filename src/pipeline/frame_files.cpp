@@ -55,8 +55,12 @@ std::vector<uint16_t> quantised_u16(const plan::Frame& frame, const image::Frame
 
 /// Where the config names the view; the output's path if it names none.
 SourceSpan view_span_of(const config::Output& output) {
-  return std::visit([](const auto& o) { return o.view_span.line > 0 ? o.view_span : o.path.span; },
-                    output);
+  const auto written_in = [](const auto& o) {
+    return o.view_span.line > 0 ? o.view_span : o.path.span;
+  };
+  if (const auto* image = std::get_if<config::ImageOutput>(&output)) return written_in(*image);
+  if (const auto* movie = std::get_if<config::MovieOutput>(&output)) return written_in(*movie);
+  return config::path_of(output).span;
 }
 
 output::EnvironmentMap environment_of(const config::CameraConfig& camera) {
@@ -171,10 +175,12 @@ Result<Displays> Displays::make(const output::ImageIo& io, const config::JobConf
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const output::DisplayTransform>>
       made;
   for (const auto& output : job.outputs) {
-    const auto names =
-        std::visit([](const auto& o) { return std::pair(o.display, o.view); }, output);
-    const bool movie = std::holds_alternative<config::MovieOutput>(output);
-    if (!movie && !names.first && !names.second) {
+    const auto* image = std::get_if<config::ImageOutput>(&output);
+    const auto* movie = std::get_if<config::MovieOutput>(&output);
+    std::pair<std::optional<std::string>, std::optional<std::string>> names;
+    if (image != nullptr) names = {image->display, image->view};
+    if (movie != nullptr) names = {movie->display, movie->view};
+    if (movie == nullptr && !names.first && !names.second) {
       displays.by_output_.push_back(nullptr);
       continue;
     }

@@ -25,14 +25,15 @@ Result<FrameSky> hosek_wilkie_sky(const plan::Plan& plan, const plan::Frame& fra
   const bool ground = plan::effects_of(plan, frame).has(sky::Effect::ground);
   FrameSky out;
   out.sky_irradiance_xyz = sky->diffuse_irradiance_xyz() * level;
-  out.fill = [=](const image::Camera& camera, const glm::dmat3& xyz_to_rgb,
+  out.fill = [=](const image::Camera& camera, const glm::dmat3& xyz_to_rgb, int first_row,
                  image::FrameBuffer& scene) -> Status {
     const glm::dvec3 ground_rgb =
         ground ? xyz_to_rgb * (sky->ground_radiance_xyz() * level) : glm::dvec3(0);
     const sky::hosek_wilkie::ImageInputs inputs{sky.get(), sun.direction, xyz_to_rgb, level,
                                                 glm::max(ground_rgb, 0.0)};
-    if (context) return sky::hosek_wilkie::render_sky_gpu(*context, camera, inputs, scene);
-    sky::hosek_wilkie::render_sky(camera, inputs, scene);
+    if (context)
+      return sky::hosek_wilkie::render_sky_gpu_rows(*context, camera, inputs, first_row, scene);
+    sky::hosek_wilkie::render_sky_rows(camera, inputs, first_row, scene);
     return Done{};
   };
   out.disc = {frame.sky.sun_apparent, frame.sky.sun_radius, [=](Angle view_elevation, double limb) {
@@ -54,9 +55,10 @@ Result<FrameSky> baseline_sky(const plan::Plan& plan, const plan::Frame& frame) 
   FrameSky out;
   out.sky_irradiance_xyz = irradiance * factor;
   out.fill = [dome = sky->dome, ground, factor](const image::Camera& camera,
-                                                const glm::dmat3& xyz_to_rgb,
+                                                const glm::dmat3& xyz_to_rgb, int first_row,
                                                 image::FrameBuffer& scene) -> Status {
-    sky::render_dome(camera, dome, factor * xyz_to_rgb, factor * (xyz_to_rgb * ground), scene);
+    sky::render_dome_rows(camera, dome, factor * xyz_to_rgb, factor * (xyz_to_rgb * ground),
+                          first_row, scene);
     return Done{};
   };
   out.disc = sky->disc;
@@ -73,10 +75,10 @@ Result<FrameSky> atmosphere_sky(const plan::Frame& frame, AtmosphereService& atm
   const plan::SunForSky sun = frame.sun;
   FrameSky out;
   out.sky_irradiance_xyz = air->sky_irradiance_xyz * sun.distance_factor;
-  out.fill = [=](const image::Camera& camera, const glm::dmat3& xyz_to_rgb,
+  out.fill = [=](const image::Camera& camera, const glm::dmat3& xyz_to_rgb, int first_row,
                  image::FrameBuffer& scene) -> Status {
-    sky::bruneton::render_slice(
-        camera, {&air->slice, sun.direction, xyz_to_rgb, sun.distance_factor}, scene);
+    sky::bruneton::render_slice_rows(
+        camera, {&air->slice, sun.direction, xyz_to_rgb, sun.distance_factor}, first_row, scene);
     return Done{};
   };
   out.disc = {sun.direction, frame.sky.sun_radius,

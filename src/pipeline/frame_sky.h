@@ -16,8 +16,10 @@ struct FrameNoise;
 
 /// Sky, ground and sun of one frame, at the sun's distance.
 struct FrameSky {
-  /// Fills an image of the camera's size with all but the disc, in the space of `xyz_to_rgb`.
-  std::function<Status(const image::Camera&, const glm::dmat3& xyz_to_rgb, image::FrameBuffer&)>
+  /// Fills the rows [first_row, first_row + height of the image) of the camera's picture with all
+  /// but the disc, in the space of `xyz_to_rgb`; the image is as wide as the picture.
+  std::function<Status(const image::Camera&, const glm::dmat3& xyz_to_rgb, int first_row,
+                       image::FrameBuffer&)>
       fill;
   glm::dvec3 sky_irradiance_xyz{0};   // horizontal, without the disc
   sky::SunDisc disc;                  // in XYZ

@@ -75,12 +75,12 @@ Result<FrameSky> reference_sky(const plan::Plan& plan, const plan::Frame& frame,
   out.noise = std::make_shared<FrameNoise>();
   out.noise->sky_irradiance_error = irradiance.relative_error;
   out.fill = [=, noise = out.noise, horizon = frame.horizon](
-                 const image::Camera& camera, const glm::dmat3& xyz_to_rgb,
+                 const image::Camera& camera, const glm::dmat3& xyz_to_rgb, int first_row,
                  image::FrameBuffer& picture) -> Status {
-    noise->standard_error = image::FrameBuffer(camera.width, camera.height);
-    const auto record = mc::render_reference(
-        camera, {scene.get(), horizon, xyz_to_rgb, sun.distance_factor, progress}, picture,
-        noise->standard_error);
+    noise->standard_error = image::FrameBuffer(picture.width(), picture.height());
+    const auto record = mc::render_reference_rows(
+        camera, {scene.get(), horizon, xyz_to_rgb, sun.distance_factor, progress}, first_row,
+        picture, noise->standard_error);
     if (!record) return record.error();
     noise->record = *record;
     return Done{};

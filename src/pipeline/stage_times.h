@@ -6,11 +6,12 @@
 namespace skylapse::pipeline {
 
 /// Where a frame's time goes; `atmosphere` is what is computed once for a frame, whatever its
-/// pixels, and the wait for it.
-enum class Stage { atmosphere, sky, disc, display, encode, write };
-inline constexpr int kStageCount = 6;
+/// pixels, and the wait for it; `product` is filtering and the like, without the sky it is fed
+/// with.
+enum class Stage { atmosphere, sky, disc, product, display, encode, write };
+inline constexpr int kStageCount = 7;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "atmosphere", "sky", "disc", "display", "encode", "write"};
+    "atmosphere", "sky", "disc", "product", "display", "encode", "write"};
 
 /// Milliseconds of each stage.
 struct StageTimes {

@@ -42,14 +42,10 @@ PathValues path_values(const config::JobConfig& job, const Frame& frame) {
   return values;
 }
 
-const Spanned<std::string>& template_of(const config::Output& output) {
-  return std::visit([](const auto& o) -> const Spanned<std::string>& { return o.path; }, output);
-}
-
 /// Fills in the paths of one output; '#' counts from 1 among the frames whose names differ in
 /// nothing else.
 void number_paths(Plan& plan, size_t output) {
-  const std::string& pattern = template_of(plan.job.outputs[output]).value;
+  const std::string& pattern = config::path_of(plan.job.outputs[output]).value;
   std::unordered_map<std::string, long> counters;
   for (Frame& frame : plan.frames) {
     const std::string path = expand_tokens(pattern, path_values(plan.job, frame));
@@ -63,8 +59,8 @@ std::optional<Error> find_collision(const Plan& plan) {
   std::unordered_map<std::string, std::pair<long, size_t>> writers;
   for (const Frame& frame : plan.frames)
     for (size_t o = 0; o < plan.job.outputs.size(); ++o) {
-      const bool movie = std::holds_alternative<config::MovieOutput>(plan.job.outputs[o]);
-      const SourceSpan& span = template_of(plan.job.outputs[o]).span;
+      const bool one_for_many = !config::is_per_frame(plan.job.outputs[o]);
+      const SourceSpan& span = config::path_of(plan.job.outputs[o]).span;
       for (const std::string& file : files_of(plan, frame, o)) {
         if (config::is_reserved_path(file))
           return Error{ErrorCode::invalid_input,
@@ -73,7 +69,7 @@ std::optional<Error> find_collision(const Plan& plan) {
                                    frame.index, file),
                        span, "rename the location or camera, or put it into a folder"};
         const auto [known, fresh] = writers.try_emplace(file, frame.index, o);
-        if (fresh || (movie && known->second.second == o)) continue;
+        if (fresh || (one_for_many && known->second.second == o)) continue;
         return Error{
             ErrorCode::invalid_input,
             fmt::format("frames {} and {} would both write '{}'", known->second.first, frame.index,

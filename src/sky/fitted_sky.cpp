@@ -37,18 +37,27 @@ glm::dvec3 ground_radiance(const FittedSky& sky, const glm::dvec3& dome_irradian
 void render_dome(const image::Camera& camera, const DomeRadiance& dome,
                  const glm::dmat3& xyz_to_rgb, const glm::dvec3& ground_rgb,
                  image::FrameBuffer& out) {
-  assert(out.width() == camera.width && out.height() == camera.height);
+  assert(out.height() == camera.height);
+  render_dome_rows(camera, dome, xyz_to_rgb, ground_rgb, 0, out);
+}
+
+void render_dome_rows(const image::Camera& camera, const DomeRadiance& dome,
+                      const glm::dmat3& xyz_to_rgb, const glm::dvec3& ground_rgb, int first_row,
+                      image::FrameBuffer& out) {
+  assert(out.width() == camera.width);
+  assert(first_row >= 0 && first_row + out.height() <= camera.height);
   const size_t grain = size_t(std::max(1, 2048 / camera.width));
-  parallel_for_ranges(size_t(camera.height), grain, [&](size_t begin, size_t end) {
-    for (int y = int(begin); y < int(end); ++y)
+  parallel_for_ranges(size_t(out.height()), grain, [&](size_t begin, size_t end) {
+    for (int row = int(begin); row < int(end); ++row)
       for (int x = 0; x < camera.width; ++x) {
+        const int y = first_row + row;
         const auto centre = image::direction_at(camera, {x + 0.5, y + 0.5});
         if (!centre) continue;
         const double share =
             image::horizon_coverage(elevation(*centre), image::pixel_solid_angle(camera, x, y));
         glm::dvec3 rgb = (1 - share) * glm::max(ground_rgb, 0.0);
         if (share > 0) rgb += share * glm::max(xyz_to_rgb * dome(*centre), 0.0);
-        for (int c = 0; c < 3; ++c) out.pixel(x, y)[c] = float(rgb[c]);
+        for (int c = 0; c < 3; ++c) out.pixel(x, row)[c] = float(rgb[c]);
       }
   });
 }

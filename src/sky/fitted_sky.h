@@ -35,6 +35,12 @@ void render_dome(const image::Camera& camera, const DomeRadiance& dome,
                  const glm::dmat3& xyz_to_rgb, const glm::dvec3& ground_rgb,
                  image::FrameBuffer& out);
 
+/// The same for the rows [first_row, first_row + out.height()) of the camera's image; out.width()
+/// is the camera's.
+void render_dome_rows(const image::Camera& camera, const DomeRadiance& dome,
+                      const glm::dmat3& xyz_to_rgb, const glm::dvec3& ground_rgb, int first_row,
+                      image::FrameBuffer& out);
+
 /// A disc of the sun's irradiance and limb darkening, dimmed by the transmittance of the air at a
 /// wavelength and an elevation of 0 to 90 deg.
 SunDisc dimmed_disc(const Direction<Enu>& sun, Angle radius,

@@ -100,6 +100,15 @@ ProjectedDisc to_radiance(const std::vector<LitPixel>& pixels) {
   return projected;
 }
 
+void add_rows(const ProjectedDisc& projected, int first_row, image::FrameBuffer& image) {
+  for (const PixelAddition& a : projected.pixels) {
+    const int row = a.y - first_row;
+    if (row < 0 || row >= image.height()) continue;
+    float* p = image.pixel(a.x, row);
+    for (int c = 0; c < 3; ++c) p[c] += static_cast<float>(a.radiance[c]);
+  }
+}
+
 }  // namespace
 
 ProjectedDisc project_sun_disc(const image::Camera& camera, const SunDisc& disc) {
@@ -128,11 +137,15 @@ DiscEnergy add_sun_disc(const image::Camera& camera, const SunDisc& disc,
                         image::FrameBuffer& image) {
   assert(camera.width == image.width() && camera.height == image.height());
   const ProjectedDisc projected = project_sun_disc(camera, disc);
-  for (const PixelAddition& a : projected.pixels) {
-    float* p = image.pixel(a.x, a.y);
-    for (int c = 0; c < 3; ++c) p[c] += static_cast<float>(a.radiance[c]);
-  }
+  add_rows(projected, 0, image);
   return projected.energy;
+}
+
+void add_sun_disc_rows(const image::Camera& camera, const SunDisc& disc, int first_row,
+                       image::FrameBuffer& image) {
+  assert(camera.width == image.width());
+  assert(first_row >= 0 && first_row + image.height() <= camera.height);
+  add_rows(project_sun_disc(camera, disc), first_row, image);
 }
 
 }  // namespace skylapse::sky

@@ -80,4 +80,9 @@ ProjectedDisc project_sun_disc(const image::Camera& camera, const SunDisc& disc)
 DiscEnergy add_sun_disc(const image::Camera& camera, const SunDisc& disc,
                         image::FrameBuffer& image);
 
+/// The same for the rows [first_row, first_row + image.height()) of the camera's picture, for
+/// pictures that are made in pieces.
+void add_sun_disc_rows(const image::Camera& camera, const SunDisc& disc, int first_row,
+                       image::FrameBuffer& image);
+
 }  // namespace skylapse::sky

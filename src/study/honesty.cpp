@@ -198,7 +198,7 @@ Result<double> render(const plan::Plan& plan, const image::Camera& camera, gpu::
   pipeline::AtmosphereService service(plan, backend, {}, sky::bruneton::TableCache(""));
   const auto sky = pipeline::sky_of(plan, plan.frames.front(), service);
   if (!sky) return sky.error();
-  const Status filled = sky->fill(camera, glm::dmat3(1.0), out);
+  const Status filled = sky->fill(camera, glm::dmat3(1.0), 0, out);
   if (!filled) return filled.error();
   return double(std::clock() - start) / CLOCKS_PER_SEC;
 }

@@ -110,7 +110,15 @@ class Places {
 
 Status render_sky_gpu(gpu::Context& context, const image::Camera& camera, const ImageInputs& inputs,
                       image::FrameBuffer& out) {
-  assert(inputs.sky != nullptr && out.width() == camera.width && out.height() == camera.height);
+  assert(out.height() == camera.height);
+  return render_sky_gpu_rows(context, camera, inputs, 0, out);
+}
+
+Status render_sky_gpu_rows(gpu::Context& context, const image::Camera& camera,
+                           const ImageInputs& inputs, int first_row, image::FrameBuffer& out) {
+  assert(inputs.sky != nullptr && out.width() == camera.width);
+  assert(first_row >= 0 && first_row + out.height() <= camera.height);
+  const size_t before = size_t(first_row) * size_t(camera.width);
   Block block = block_of(inputs);
   const Places places(camera, inputs.sun);
   return context.run([&](const gpu::Functions& gl) -> Status {
@@ -121,7 +129,7 @@ Status render_sky_gpu(gpu::Context& context, const image::Camera& camera, const 
       const size_t count = std::min<size_t>(kPixelsAtOnce, out.pixel_count() - first);
       block.pixels = int(count);
       const gpu::Buffer uniforms = gpu::Buffer::of_block(gl, block);
-      const gpu::Buffer input = gpu::Buffer::of(gl, places.make(first, count));
+      const gpu::Buffer input = gpu::Buffer::of(gl, places.make(before + first, count));
       const gpu::Buffer pixels = gpu::Buffer::create(gl, 3 * sizeof(float) * count);
       uniforms.bind_uniform(gl, 0);
       input.bind_storage(gl, 0);

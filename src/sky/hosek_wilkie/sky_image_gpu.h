@@ -16,6 +16,11 @@ namespace skylapse::sky::hosek_wilkie {
 Status render_sky_gpu(gpu::Context& context, const image::Camera& camera, const ImageInputs& inputs,
                       image::FrameBuffer& out);
 
+/// The same for the rows [first_row, first_row + out.height()) of the camera's image; out.width()
+/// is the camera's.
+Status render_sky_gpu_rows(gpu::Context& context, const image::Camera& camera,
+                           const ImageInputs& inputs, int first_row, image::FrameBuffer& out);
+
 inline constexpr int kPixelsAtOnce = 1 << 18;
 
 }  // namespace skylapse::sky::hosek_wilkie

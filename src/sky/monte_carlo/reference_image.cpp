@@ -196,20 +196,30 @@ Result<ReferenceImageRecord> render_reference(const image::Camera& camera,
                                               const ReferenceImageInputs& inputs,
                                               image::FrameBuffer& out,
                                               image::FrameBuffer& standard_error) {
-  assert(inputs.scene != nullptr && out.width() == camera.width && out.height() == camera.height);
+  assert(out.height() == camera.height);
+  return render_reference_rows(camera, inputs, 0, out, standard_error);
+}
+
+Result<ReferenceImageRecord> render_reference_rows(const image::Camera& camera,
+                                                   const ReferenceImageInputs& inputs,
+                                                   int first_row, image::FrameBuffer& out,
+                                                   image::FrameBuffer& standard_error) {
+  assert(inputs.scene != nullptr && out.width() == camera.width);
+  assert(first_row >= 0 && first_row + out.height() <= camera.height);
   assert(standard_error.width() == out.width() && standard_error.height() == out.height());
-  const size_t pixels = out.pixel_count();
+  const size_t pixels = out.pixel_count(), first = size_t(first_row) * size_t(camera.width);
   std::vector<PixelNote> notes(pixels);
   Watch watch(inputs.progress, long(pixels));
   parallel_for_ranges(pixels, 4, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end && !watch.stopped(); ++i) {
-      const int x = int(i % size_t(camera.width)), y = int(i / size_t(camera.width));
+      const int x = int(i % size_t(camera.width)), row = int(i / size_t(camera.width));
+      const int y = first_row + row;
       const auto centre = image::direction_at(camera, {x + 0.5, y + 0.5});
       if (centre)
         notes[i] =
             write_pixel(inputs.scene->radiance(directions_of(camera, x, y, *centre, inputs.horizon),
-                                               uint32_t(i)),
-                        inputs, out.pixel(x, y), standard_error.pixel(x, y));
+                                               uint32_t(first) + uint32_t(i)),
+                        inputs, out.pixel(x, row), standard_error.pixel(x, row));
       watch.add(1);
     }
   });

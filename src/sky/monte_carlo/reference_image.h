@@ -82,6 +82,14 @@ Result<ReferenceImageRecord> render_reference(const image::Camera& camera,
                                               image::FrameBuffer& out,
                                               image::FrameBuffer& standard_error);
 
+/// The same for the rows [first_row, first_row + out.height()) of the camera's image, with the
+/// bits that the whole image has there; both buffers are as wide as that, `progress` and the record
+/// are of these rows.
+Result<ReferenceImageRecord> render_reference_rows(const image::Camera& camera,
+                                                   const ReferenceImageInputs& inputs,
+                                                   int first_row, image::FrameBuffer& out,
+                                                   image::FrameBuffer& standard_error);
+
 inline constexpr int kRowsOfPixel = 8;
 
 }  // namespace skylapse::sky::monte_carlo

@@ -1,0 +1,65 @@
+#include "pipeline/frame_light.h"
+
+#include "color/rgb_space.h"
+#include "plan/effect_planner.h"
+
+namespace skylapse::pipeline {
+namespace {
+
+/// The disc with the effects that the plan takes.
+sky::SunDisc disc_with(sky::EffectSet effects, const plan::Frame& frame, sky::SunDisc disc) {
+  if (effects.has(sky::Effect::flattening)) disc.flattening = frame.sun_flattening;
+  if (!effects.has(sky::Effect::limb_darkening))
+    disc.radiance = sky::without_limb_darkening(disc.radiance);
+  return disc;
+}
+
+}  // namespace
+
+Status FrameLight::fill_rows(const image::Camera& camera, Disc with, int first_row,
+                             image::FrameBuffer& out, StageTimes& times) const {
+  {
+    const StageTimer timer(times, Stage::sky);
+    const Status filled = sky.fill(camera, xyz_to_rgb, first_row, out);
+    if (!filled) return filled;
+  }
+  if (with == Disc::with && disc_shows) {
+    const StageTimer timer(times, Stage::disc);
+    sky::add_sun_disc_rows(camera, disc, first_row, out);
+  }
+  return Done{};
+}
+
+Result<image::FrameBuffer> FrameLight::picture(const image::Camera& camera, Disc with,
+                                               StageTimes& times) const {
+  image::FrameBuffer out(camera.width, camera.height);
+  const Status filled = fill_rows(camera, with, 0, out, times);
+  if (!filled) return filled.error();
+  return out;
+}
+
+Result<FrameLight> light_of_frame(const plan::Plan& plan, const plan::Frame& frame,
+                                  AtmosphereService& atmospheres, StageTimes& times,
+                                  const std::function<bool(double)>& progress) {
+  const auto space = color::rgb_space_from_name(plan.job.color.space);
+  if (!space) return space.error();
+  FrameLight light;
+  light.xyz_to_rgb = color::xyz_to_rgb(*space);
+  {
+    const StageTimer timer(times, Stage::atmosphere);
+    auto sky = sky_of(plan, frame, atmospheres, progress);
+    if (!sky) return sky.error();
+    light.sky = *std::move(sky);
+  }
+  const sky::EffectSet effects = plan::effects_of(plan, frame);
+  light.disc_shows = effects.has(sky::Effect::sun_disc);
+  light.disc = disc_with(effects, frame, light.sky.disc);
+  light.disc_energy = sky::disc_energy(light.disc);
+  light.disc.radiance = [matrix = light.xyz_to_rgb, radiance = light.disc.radiance](
+                            Angle view_elevation, double limb) {
+    return glm::max(matrix * radiance(view_elevation, limb), 0.0);
+  };
+  return light;
+}
+
+}  // namespace skylapse::pipeline
