@@ -5,6 +5,7 @@
 
 #include "image/camera/cube.h"
 #include "image/camera/fisheye.h"
+#include "image/camera/octahedral.h"
 #include "image/camera/perspective.h"
 
 namespace skylapse::sky {
@@ -23,8 +24,10 @@ Facet whole_image(const image::Camera& camera) {
 Facet fisheye_facet(const image::Camera& camera) {
   Facet facet = whole_image(camera);
   facet.unit_px = image::fisheye_circle(camera).radius_px;
-  const Angle quarter_fov = 0.25 * camera.field_of_view;
+  const Angle quarter_fov = 0.5 * image::fisheye_theta_max(camera);
+  facet.axes[2] *= image::fisheye_axis(camera).z();
   switch (camera.projection) {
+    case image::Projection::mirror_ball:
     case image::Projection::fisheye_equisolid:
       facet.lens = Facet::Lens::equisolid;
       facet.lens_factor = sin(quarter_fov);
@@ -61,6 +64,7 @@ Facet face_facet(const image::Camera& camera, image::CubeFace face) {
 glm::dvec3 Facet::direction(double x, double y) const {
   const double r2 = x * x + y * y;
   if (lens == Lens::plane) return axes * (glm::dvec3(x, y, 1) / std::sqrt(1 + r2));
+  if (lens == Lens::octahedral) return axes * image::octahedral_direction(x, -y);
   // s = sin(theta/2) / r and c = cos(theta/2); c^2 - (s r)^2 as a product keeps its digits near
   // 90 deg, where the zenith camera has its horizon.
   double s = lens_factor, c = 0;
@@ -83,13 +87,14 @@ glm::dvec3 Facet::direction(double x, double y) const {
 }
 
 double Facet::largest_pixel_side() const {
-  // All lenses here have their largest pixels on the axis; a pixel's mean cannot exceed that.
+  if (lens == Lens::octahedral) return std::sqrt(std::numbers::pi) / unit_px;
+  // All other lenses here have their largest pixels on the axis; a pixel's mean cannot exceed that.
   return (lens == Lens::plane ? 1.0 : 2 * lens_factor) / unit_px;
 }
 
 PixelSpan Facet::visible(int row) const {
   PixelSpan span{x0, x0 + width};
-  if (lens == Lens::plane) return span;
+  if (lens == Lens::plane || lens == Lens::octahedral) return span;
   // As image::direction_at: a pixel belongs to the picture if its centre is inside the circle.
   constexpr double kEdge = (1 + 1e-9) * (1 + 1e-9);
   const double y = y_of(row), rest = kEdge - y * y;
@@ -116,6 +121,12 @@ std::vector<Facet> facets_of(const image::Camera& camera) {
     case image::Projection::perspective: {
       Facet facet = whole_image(camera);
       facet.unit_px = image::perspective_focal_length_px(camera);
+      return {facet};
+    }
+    case image::Projection::octahedral: {
+      Facet facet = whole_image(camera);
+      facet.lens = Facet::Lens::octahedral;
+      facet.unit_px = 0.5 * camera.width;
       return {facet};
     }
     default:

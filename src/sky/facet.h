@@ -1,5 +1,6 @@
 #pragma once
-// A rectangle of an image that looks through one lens: the whole picture, or one face of a cube.
+// A rectangle of an image that looks through one lens: the whole picture, one face of a cube, or an
+// octahedral map.
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -14,14 +15,14 @@ struct PixelSpan {
 
 struct Facet {
   /// Plane: perspective and cube faces. The others as image::Projection.
-  enum class Lens { plane, equidistant, equisolid, stereographic };
+  enum class Lens { plane, equidistant, equisolid, stereographic, octahedral };
 
   Lens lens = Lens::plane;
   int x0 = 0, y0 = 0, width = 0, height = 0;  // pixels of the image
   double centre_x = 0, centre_y = 0;          // where the axis meets the image, in pixels
-  double unit_px = 1;      // pixels per unit of x and y: focal length, or circle radius
+  double unit_px = 1;      // pixels per unit of x and y: focal length, circle radius, half side
   double lens_factor = 0;  // fisheyes: theta_max / 2, sin(theta_max / 2) or tan(theta_max / 2)
-  glm::dmat3 axes{1.0};    // columns right, up, forward in east-north-up
+  glm::dmat3 axes{1.0};    // columns right, up, middle in east-north-up (octahedral: forward)
 
   [[nodiscard]] double x_of(int column) const { return (column + 0.5 - centre_x) / unit_px; }
   [[nodiscard]] double y_of(int row) const { return (centre_y - row - 0.5) / unit_px; }

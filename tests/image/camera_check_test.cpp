@@ -52,6 +52,9 @@ TEST(CameraProblem, NamesASizeThatFitsTheCubesLayout) {
                  "6n x n, for instance 96x16");
   expect_problem(make_camera(cube, 400, 301, {}, north, CubeLayout::cross), "400x301",
                  "4n x 3n, for instance 400x300");
+  expect_problem(make_camera(cube, 301, 400, {}, north, CubeLayout::vertical_cross), "301x400",
+                 "3n x 4n, for instance 300x400");
+  expect_problem(make_camera(octahedral, 200, 100, {}), "200x100", "a square");
 }
 
 TEST(CameraProblem, FindsAxesThatAreNoOrientation) {
@@ -61,6 +64,8 @@ TEST(CameraProblem, FindsAxesThatAreNoOrientation) {
   c.camera_to_enu = 2.0 * look_at({}, {}, {});
   expect_problem(c, "unit vectors", "right angles");
   expect_problem(make_camera(lat_long, 4, 2, {}, look_at({}, 10 * deg, {})), "upright", "heading");
+  expect_problem(make_camera(octahedral, 4, 4, {}, look_at({}, 10 * deg, {})), "upright",
+                 "heading");
 }
 
 }  // namespace

@@ -116,6 +116,81 @@ TEST(Orientation, CrossShowsTheHeadingInItsSecondColumnAndEastToTheRight) {
   EXPECT_EQ(pixel_solid_angle(c, 0, 0).in(sr), 0);
 }
 
+TEST(Orientation, VerticalCrossShowsTheHeadingInItsSecondRowAndWhatIsBehindBelow) {
+  const Camera c =
+      make_camera(Projection::cube, 30, 40, {}, look_at({}, {}, {}), CubeLayout::vertical_cross);
+  expect_at(c, kWest, 5, 15);
+  expect_at(c, kNorth, 15, 15);
+  expect_at(c, kEast, 25, 15);
+  expect_at(c, kUp, 15, 5);
+  expect_at(c, kDown, 15, 25);
+  expect_at(c, kSouth, 15, 35);
+  // Upside down: the sky is below, and east, seen from there to the left, to the right.
+  EXPECT_GT(position_of(c, enu_direction(180 * deg, 20 * deg))->y, 35);
+  EXPECT_GT(position_of(c, enu_direction(160 * deg, {}))->x, 15);
+  for (const PixelPosition blank : {PixelPosition{5, 5}, {25, 5}, {5, 25}, {5, 35}, {29, 39}})
+    EXPECT_FALSE(direction_at(c, blank));
+}
+
+// pbrt-4's EqualAreaSquareToSphere with its x, y, z as east, north, up.
+TEST(Orientation, OctahedralHasTheZenithInTheMiddleAndNorthBelow) {
+  const Camera c = make_camera(Projection::octahedral, 100, 100, {});
+  expect_at(c, kUp, 50, 50);
+  expect_at(c, kEast, 100, 50);
+  expect_at(c, kWest, 0, 50);
+  expect_at(c, kNorth, 50, 100);
+  expect_at(c, kSouth, 50, 0);
+  for (const double x : {1e-6, 100 - 1e-6})
+    for (const double y : {1e-6, 100 - 1e-6}) EXPECT_LT(direction_at(c, {x, y})->z(), -1 + 1e-12);
+  // Half way to the edge: r = 1/2, z = 1 - r^2.
+  EXPECT_NEAR(direction_at(c, {75, 50})->z(), 0.75, 1e-15);
+  EXPECT_NEAR(direction_at(c, {75, 75})->z(), 0, 1e-15);  // north-east, on the horizon
+  EXPECT_NEAR(azimuth(*direction_at(c, {75, 75})).in(deg), 45, 1e-12);
+}
+
+TEST(Orientation, OctahedralTurnsWithItsHeading) {
+  const Camera c = make_camera(Projection::octahedral, 100, 100, {}, look_at(90 * deg, {}, {}));
+  expect_at(c, kEast, 50, 100);
+  expect_at(c, kSouth, 100, 50);
+}
+
+TEST(Orientation, OctahedralEdgesAreFoldedInTheirMiddles) {
+  const Camera c = make_camera(Projection::octahedral, 64, 64, {}, look_at(10 * deg, {}, {}));
+  for (double t = 0.25; t < 64; t += 0.5) {
+    const auto same = [&](PixelPosition a, PixelPosition b) {
+      EXPECT_LT(separation(*direction_at(c, a), *direction_at(c, b)).in(rad), 1e-12) << t;
+    };
+    same({0, t}, {0, 64 - t});
+    same({64, t}, {64, 64 - t});
+    same({t, 0}, {64 - t, 0});
+    same({t, 64}, {64 - t, 64});
+  }
+}
+
+// The ball stands to the north of the camera: its middle shows the camera's own side.
+TEST(Orientation, MirrorBallShowsWhatIsBehindInTheMiddleAndIsMirrored) {
+  const Camera c = make_camera(Projection::mirror_ball, 200, 200, {});
+  expect_at(c, kSouth, 100, 100);
+  const double r = 100 * std::sqrt(0.5);  // the normal leans 45 deg
+  expect_at(c, kEast, 100 + r, 100);
+  expect_at(c, kWest, 100 - r, 100);
+  expect_at(c, kUp, 100, 100 - r);
+  expect_at(c, kDown, 100, 100 + r);
+  // The rim is the one direction that the ball hides.
+  for (int i = 0; i < 12; ++i) {
+    const Angle a = i * 30 * deg;
+    const auto d = direction_at(c, {100 + 100 * cos(a), 100 + 100 * sin(a)});
+    EXPECT_LT(separation(*d, kNorth).in(rad), 1e-3) << i;
+  }
+  EXPECT_FALSE(direction_at(c, {5, 5}));
+  // Law of reflection on the ball, for a ray that flies north.
+  for (const auto& [x, y] : {std::pair{0.3, 0.2}, {-0.6, 0.7}, {0.1, -0.9}}) {
+    const glm::dvec3 n{x, -std::sqrt(1 - x * x - y * y), y}, ray{0, 1, 0};
+    const auto d = direction_at(c, {100 + 100 * x, 100 - 100 * y});
+    EXPECT_LT(glm::length(d->vec() - (ray - 2 * glm::dot(ray, n) * n)), 1e-12);
+  }
+}
+
 TEST(CubeFaces, TogetherShareTheirEdges) {
   // Each edge position of each face shows exactly (power-of-two face) a position of another face.
   const Camera c = make_camera(Projection::cube, 16, 96, {});
@@ -137,6 +212,19 @@ TEST(CubeFaces, TogetherShareTheirEdges) {
         }
         ASSERT_EQ(shared_with, 1) << int(face) << ' ' << local.x << ' ' << local.y;
       }
+}
+
+TEST(CubeFaces, OfTheVerticalCrossJoinWhereTheyTouch) {
+  const Camera c = make_camera(Projection::cube, 48, 64, {}, look_at(30 * deg, {}, {}),
+                               CubeLayout::vertical_cross);
+  const auto expect_joined = [&](PixelPosition a, PixelPosition b) {
+    EXPECT_LT(separation(*direction_at(c, a), *direction_at(c, b)).in(rad), 1e-6);
+  };
+  for (double t = 0.5; t < 16; ++t) {
+    for (const double x : {16.0, 32.0}) expect_joined({x - 1e-7, 16 + t}, {x, 16 + t});
+    for (const double y : {16.0, 32.0, 48.0}) expect_joined({16 + t, y - 1e-7}, {16 + t, y});
+    expect_joined({16 + t, 0}, {16 + t, 64});  // the column closes
+  }
 }
 
 TEST(CubeFaces, OfTheCrossJoinWhereTheyTouch) {

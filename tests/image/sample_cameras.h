@@ -45,6 +45,11 @@ inline std::vector<NamedCamera> sample_cameras() {
       {"cube_vertical", make_camera(cube, 32, 192, {})},
       {"cube_horizontal", make_camera(cube, 198, 33, {}, heading, CubeLayout::horizontal_strip)},
       {"cube_cross", make_camera(cube, 128, 96, {}, heading, CubeLayout::cross)},
+      {"cube_vertical_cross", make_camera(cube, 96, 128, {}, heading, CubeLayout::vertical_cross)},
+      {"octahedral", make_camera(octahedral, 96, 96, {})},
+      {"octahedral_odd_heading", make_camera(octahedral, 75, 75, {}, heading)},
+      {"mirror_ball", make_camera(mirror_ball, 128, 128, {})},
+      {"mirror_ball_tilted", make_camera(mirror_ball, 160, 128, 90 * deg, tilted)},
   };
 }
 

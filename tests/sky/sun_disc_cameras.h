@@ -37,6 +37,8 @@ inline std::vector<TestCamera> cameras_around(int width, Angle azimuth, Angle el
   const glm::dmat3 north = look_at({}, {}, {}), heading = look_at(20 * deg, {}, {});
   const glm::dmat3 zenith = look_at(180 * deg, 90 * deg, {});
   const glm::dmat3 beside = look_at(azimuth + 4 * deg, elevation + 2 * deg, 7 * deg);
+  // A mirror ball squeezes what it hides to its rim: there the sun is not.
+  const glm::dmat3 away = look_at(azimuth + 130 * deg, 10 * deg, 7 * deg);
   const int w = width, face = width / 4;
   const auto strip = CubeLayout::vertical_strip;
   return {
@@ -48,6 +50,10 @@ inline std::vector<TestCamera> cameras_around(int width, Angle azimuth, Angle el
       {"equidistant", {fisheye_equidistant, w, w, 180 * deg, strip, zenith}, true},
       {"equisolid", {fisheye_equisolid, w, w, 180 * deg, strip, zenith}, true},
       {"stereographic", {fisheye_stereographic, w, w, 180 * deg, strip, zenith}, true},
+      {"cube vertical cross", {cube, 3 * face, 4 * face, {}, CubeLayout::vertical_cross, north}},
+      {"octahedral", {octahedral, w, w, {}, strip, north}},
+      {"octahedral odd", {octahedral, w - 1, w - 1, {}, strip, heading}},
+      {"mirror ball", {mirror_ball, w, w, {}, strip, away}, true},
   };
 }
 

@@ -53,6 +53,27 @@ TEST(SunDiscJoins, SeamAndPolesOfALatLongMapKeepTheWholeDisc) {
   }
 }
 
+TEST(SunDiscJoins, FoldsAndCornersOfAnOctahedralMapKeepTheWholeDisc) {
+  for (const int w : {1, 2, 3, 7, 64, 333, 1024}) {
+    const Camera camera{octahedral, w, w, {}, {}, kNorth};
+    for (const double azimuth : {0.0, 0.05, 90.0, 179.99, 45.0})
+      for (const double el : {0.0, 0.1, 0.3, 40.0, 89.5, 89.9, 90.0})
+        expect_whole_disc(camera, test_sun(azimuth * deg, el * deg), "fold " + std::to_string(w));
+    // A disc below the level, as seen from a mountain: across the outer edges.
+    SunDisc low = test_sun(90.02 * deg, -5 * deg);
+    low.horizon = -7 * deg;
+    expect_whole_disc(camera, low, "low " + std::to_string(w));
+  }
+}
+
+TEST(SunDiscJoins, RimOfAMirrorBallKeepsTheWholeDisc) {
+  for (const int w : {16, 128, 512}) {
+    const Camera camera{mirror_ball, w, w, {}, {}, look_at(180 * deg, 30 * deg, {})};
+    for (const double el : {30.0, 30.2, 30.27, 31.0})  // 30: behind the ball
+      expect_whole_disc(camera, test_sun(180 * deg, el * deg), "rim " + std::to_string(w));
+  }
+}
+
 TEST(SunDiscJoins, RimOfAFullSphereFisheyeKeepsTheWholeDisc) {
   for (const auto projection : {fisheye_equidistant, fisheye_equisolid})
     for (const int w : {16, 128, 512}) {
@@ -174,6 +195,9 @@ std::vector<Path> paths(int w) {
       {"lat-long pole", {lat_long, w, w / 2, {}, strip, kNorth}, 90, 89.6, 0, 2 * s},
       {"cube edge", {cube, w / 4, w / 4 * 6, {}, strip, kNorth}, 44.8, 10, 2 * s, s},
       {"cube corner", {cube, w / 4, w / 4 * 6, {}, strip, kNorth}, 44.7, 35.15, 2 * s, s},
+      {"octahedral axis", {octahedral, w, w, {}, strip, kNorth}, 89.9, 40, 2 * s, s},
+      {"octahedral rising", {octahedral, w, w, {}, strip, kNorth}, 70, 0.02, s, s},
+      {"octahedral zenith", {octahedral, w, w, {}, strip, kNorth}, 70, 89.8, 0, 2 * s},
       {"perspective rising", {perspective, w, w / 2, 75 * deg, strip, tilted}, 90, 0, s, s},
       {"perspective edge", {perspective, w, w / 2, 20 * deg, strip, tilted}, 84.6, 8, 2 * s, s},
       {"perspective large", {perspective, w, w / 2, 3 * deg, strip, tilted}, 94.5, 8, s, s},

@@ -5,6 +5,7 @@
 #include "image/camera/cube.h"
 #include "image/camera/fisheye.h"
 #include "image/camera/lat_long.h"
+#include "image/camera/octahedral.h"
 #include "image/camera/perspective.h"
 
 namespace skylapse::image {
@@ -42,6 +43,9 @@ std::optional<Direction<CameraFrame>> ray(const Camera& camera, PixelPosition po
       if (!face) return {};
       return cube_ray(camera, *face, position);
     }
+    case Projection::octahedral:
+      return octahedral_ray(camera, position);
+    case Projection::mirror_ball:
     case Projection::fisheye_equidistant:
     case Projection::fisheye_equisolid:
     case Projection::fisheye_stereographic:
@@ -93,6 +97,9 @@ std::optional<PixelPosition> position_of(const Camera& camera, const Direction<E
       return lat_long_position(camera, d);
     case Projection::cube:
       return cube_position(camera, d);
+    case Projection::octahedral:
+      return octahedral_position(camera, d);
+    case Projection::mirror_ball:
     case Projection::fisheye_equidistant:
     case Projection::fisheye_equisolid:
     case Projection::fisheye_stereographic:
@@ -115,6 +122,9 @@ SolidAngle pixel_solid_angle(const Camera& camera, int x, int y) {
       const auto face = cube_face_at(camera, centre);
       return (face ? cube_solid_angle_sr(camera, *face, x, y) : 0.0) * sr;
     }
+    case Projection::octahedral:
+      return octahedral_solid_angle_sr(camera) * sr;
+    case Projection::mirror_ball:
     case Projection::fisheye_equidistant:
     case Projection::fisheye_equisolid:
     case Projection::fisheye_stereographic:

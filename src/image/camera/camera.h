@@ -15,16 +15,31 @@ enum class Projection {
   fisheye_stereographic,
   lat_long,
   cube,
+  octahedral,   // equal-area square, pbrt-4's: camera/octahedral.h
+  mirror_ball,  // photograph of a mirror ball: camera/fisheye.h
 };
+
+/// Whether a camera of this projection sees every direction, whatever its field of view.
+constexpr bool sees_whole_sphere(Projection p) {
+  return p == Projection::lat_long || p == Projection::cube || p == Projection::octahedral ||
+         p == Projection::mirror_ball;
+}
+
+/// Whether such an image stands upright: only its heading can be turned.
+constexpr bool stands_upright(Projection p) {
+  return sees_whole_sphere(p) && p != Projection::mirror_ball;
+}
 
 /// Strips hold +X -X +Y -Y +Z -Z, each face oriented as OpenEXR's ENVMAP_CUBE: seen from inside,
 /// not mirrored. (OpenGL's own faces are mirrored in right-handed axes: docs/conventions.md.)
-/// The cross joins at its edges: left (+X), ahead (+Z), right (-X), behind (-Z) in the middle row,
-/// +Y above and -Y below ahead, both turned by half a turn against the strips; the rest is blank.
+/// The crosses join at their edges: left (+X), ahead (+Z), right (-X) side by side, +Y above and -Y
+/// below ahead, both turned by half a turn against the strips; behind (-Z) is the fourth of the
+/// row, or, turned by half a turn, the fourth of the column; the rest is blank.
 enum class CubeLayout {
   horizontal_strip,  // 6n x n
   vertical_strip,    // n x 6n, as OpenEXR stores a cube
   cross,             // 4n x 3n
+  vertical_cross,    // 3n x 4n
 };
 
 /// A camera and its image size. Lat-long and cube images use the OpenEXR axes
@@ -38,8 +53,9 @@ struct Camera {
   Angle field_of_view = 90 * deg;
   CubeLayout cube_layout = CubeLayout::vertical_strip;
   /// Columns: the camera's right, up and forward axes in east-north-up, orthonormal with
-  /// determinant -1 (right x up points backward). Lat-long and cube: up is the zenith and forward
-  /// the heading of the image centre. Default: looking north, upright.
+  /// determinant -1 (right x up points backward). Lat-long, cube and octahedral: up is the zenith
+  /// and forward the heading (of the image centre; octahedral: of its lower edge). Default: looking
+  /// north, upright.
   glm::dmat3 camera_to_enu{1, 0, 0, 0, 0, 1, 0, 1, 0};
 };
 
@@ -56,8 +72,8 @@ struct PixelPosition {
   double y = 0;  // in pixels from the top edge
 };
 
-/// Direction seen at a position of the image; nothing outside a fisheye circle or on the blank
-/// parts of a cross.
+/// Direction seen at a position of the image; nothing outside a fisheye's or a ball's circle or on
+/// the blank parts of a cross.
 std::optional<Direction<Enu>> direction_at(const Camera& camera, PixelPosition position);
 
 /// Where a direction falls; nothing if the camera does not see it.

@@ -34,8 +34,18 @@ Problem cube_problem(const Camera& c) {
       if (w * 3 != h * 4 || h % 3 != 0)
         return message("a cross", "4n x 3n", std::max<int64_t>(1, w / 4), 4, 3);
       break;
+    case CubeLayout::vertical_cross:
+      if (w * 4 != h * 3 || w % 3 != 0)
+        return message("a vertical cross", "3n x 4n", std::max<int64_t>(1, w / 3), 3, 4);
+      break;
   }
   return {};
+}
+
+Problem octahedral_problem(const Camera& c) {
+  if (c.width == c.height) return {};
+  return fmt::format("size {}x{} is no octahedral map (allowed: a square, for instance {}x{})",
+                     c.width, c.height, c.width, c.width);
 }
 
 Problem field_of_view_problem(const Camera& c) {
@@ -59,6 +69,8 @@ Problem field_of_view_problem(const Camera& c) {
       break;
     case Projection::lat_long:
     case Projection::cube:
+    case Projection::octahedral:
+    case Projection::mirror_ball:
       break;  // the whole sphere
   }
   return {};
@@ -74,10 +86,10 @@ Problem orientation_problem(const Camera& c) {
   if (glm::determinant(c.camera_to_enu) > 0)
     return "the camera's axes show a mirror image (right x up must point backward)";
   const bool upright = c.camera_to_enu[1].z > 1 - kTolerance;
-  const bool whole_sphere =
-      c.projection == Projection::lat_long || c.projection == Projection::cube;
-  if (whole_sphere && !upright)
-    return "lat-long and cube images stand upright: only their heading (azimuth) can be turned";
+  if (stands_upright(c.projection) && !upright)
+    return "lat-long, cube and octahedral images stand upright: only their heading (azimuth) can "
+           "be "
+           "turned";
   return {};
 }
 
@@ -87,6 +99,8 @@ std::optional<std::string> camera_problem(const Camera& camera) {
   if (auto p = size_problem(camera)) return p;
   if (camera.projection == Projection::cube)
     if (auto p = cube_problem(camera)) return p;
+  if (camera.projection == Projection::octahedral)
+    if (auto p = octahedral_problem(camera)) return p;
   if (auto p = field_of_view_problem(camera)) return p;
   return orientation_problem(camera);
 }

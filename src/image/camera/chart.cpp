@@ -12,7 +12,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 bool is_fisheye(const Camera& camera) {
-  return camera.projection == Projection::fisheye_equidistant ||
+  return camera.projection == Projection::mirror_ball ||
+         camera.projection == Projection::fisheye_equidistant ||
          camera.projection == Projection::fisheye_equisolid ||
          camera.projection == Projection::fisheye_stereographic;
 }
@@ -25,8 +26,8 @@ double plane_density(double distance_px, double c) {
 PixelExtent fisheye_extent(const Camera& camera, const Direction<CameraFrame>& centre,
                            Angle radius) {
   const double half_pixel = 0.5 / fisheye_circle(camera).radius_px;
-  const Angle theta = separation(centre, Direction<CameraFrame>());
-  const Angle edge = std::min(theta, 0.5 * camera.field_of_view);
+  const Angle theta = separation(centre, fisheye_axis(camera));
+  const Angle edge = std::min(theta, fisheye_theta_max(camera));
   const double r = std::max(half_pixel, fisheye_r(camera, edge) - half_pixel);
   const Angle inner = fisheye_theta(camera, r - half_pixel).value_or(Angle{});
   const Angle outer = fisheye_theta(camera, r + half_pixel).value_or(kPi * rad);
@@ -76,10 +77,17 @@ PixelExtent perspective_extent(const Camera& camera, const Direction<CameraFrame
 }  // namespace
 
 std::vector<Chart> charts(const Camera& camera) {
-  if (camera.projection != Projection::cube) return {{camera, {}}};
-  std::vector<Chart> faces;
-  for (const CubeFace face : kCubeFaces) faces.push_back({camera, face});
-  return faces;
+  std::vector<Chart> pieces;
+  if (camera.projection == Projection::cube) {
+    for (const CubeFace face : kCubeFaces) pieces.push_back({camera, face});
+  } else if (camera.projection == Projection::octahedral) {
+    for (const int up : {1, -1})
+      for (const int v : {1, -1})
+        for (const int u : {1, -1}) pieces.push_back({camera, {}, Octant{u, v, up}});
+  } else {
+    pieces.push_back({camera});
+  }
+  return pieces;
 }
 
 std::optional<ChartSample> chart_sample(const Chart& chart, PixelPosition position) {
@@ -99,6 +107,9 @@ std::optional<ChartSample> chart_sample(const Chart& chart, PixelPosition positi
     return ChartSample{lat_long_ray(camera, position),
                        std::abs(std::sin(position.y * row)) * row * column};
   }
+  if (camera.projection == Projection::octahedral)
+    return ChartSample{octant_ray(camera, *chart.octant, position),
+                       octahedral_solid_angle_sr(camera)};
   const auto d = fisheye_ray(camera, position);
   if (!d) return {};
   return ChartSample{*d, fisheye_sr_per_pixel(camera, position)};
@@ -108,12 +119,14 @@ double share_in_picture(const Chart& chart, PixelPosition position, const ChartS
                         SolidAngle cell) {
   const Camera& camera = chart.camera;
   if (is_fisheye(camera)) {
-    const Angle half = 0.5 * camera.field_of_view;
+    const Angle half = fisheye_theta_max(camera);
     if (half >= kPi * rad) return 1;  // the whole sphere: nothing lies outside
-    return horizon_coverage(half - separation(sample.direction, Direction<CameraFrame>()), cell);
+    return horizon_coverage(half - separation(sample.direction, fisheye_axis(camera)), cell);
   }
   if (camera.projection == Projection::cube)
     return cube_face_at(camera, position) == chart.face ? 1 : 0;
+  if (camera.projection == Projection::octahedral)
+    return octant_at(camera, position) == chart.octant ? 1 : 0;
   if (camera.projection == Projection::lat_long)
     return position.y >= 0 && position.y <= camera.height ? 1 : 0;
   return position.x >= 0 && position.x <= camera.width && position.y >= 0 &&
@@ -124,8 +137,7 @@ double share_in_picture(const Chart& chart, PixelPosition position, const ChartS
 
 bool fills_pixel(const Chart& chart, int x, int y) {
   const Camera& camera = chart.camera;
-  if (camera.projection == Projection::lat_long || camera.projection == Projection::cube)
-    return true;
+  if (stands_upright(camera.projection)) return true;  // lat-long, cube, octahedral
   return direction_at(camera, {x + 0.5, y + 0.5}).has_value();
 }
 
@@ -133,6 +145,10 @@ PixelExtent pixel_extent(const Camera& camera, const Direction<CameraFrame>& cen
   if (camera.projection == Projection::lat_long) return lat_long_extent(camera, centre, radius);
   if (camera.projection == Projection::cube) return cube_extent(camera, centre);
   if (camera.projection == Projection::perspective) return perspective_extent(camera, centre);
+  if (camera.projection == Projection::octahedral) {
+    const Angle side = octahedral_pixel_extent(camera, centre, radius);
+    return {side, side, octahedral_solid_angle_sr(camera) * sr};
+  }
   return fisheye_extent(camera, centre, radius);
 }
 

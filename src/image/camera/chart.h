@@ -1,16 +1,18 @@
 #pragma once
 // Charts: the smooth pieces a picture is made of, for those who spread something small over it.
 // A chart is a plane of pixels with one formula from position to direction that goes on beyond the
-// picture's edge. A cube has six, every other projection one.
+// picture's edge. A cube has six, an octahedral map eight, every other projection one.
 #include <vector>
 
 #include "image/camera/cube.h"
+#include "image/camera/octahedral.h"
 
 namespace skylapse::image {
 
 struct Chart {
   Camera camera;
-  std::optional<CubeFace> face;  // of a cube
+  std::optional<CubeFace> face = {};  // of a cube
+  std::optional<Octant> octant = {};  // of an octahedral map
 };
 std::vector<Chart> charts(const Camera& camera);
 
@@ -30,13 +32,14 @@ double share_in_picture(const Chart& chart, PixelPosition position, const ChartS
                         SolidAngle cell);
 
 /// Whether the pixel (x, y) is filled by this chart: direction_at answers at its centre. Columns
-/// of a lat-long map repeat, and its rows go on over the poles, so there every pixel is.
+/// of a lat-long map repeat, its rows go on over the poles, and the faces of cubes and octahedra go
+/// on in others, so there every pixel is.
 bool fills_pixel(const Chart& chart, int x, int y);
 
 /// Angles that a pixel spans in x and y where a disc of the given radius is centred (the nearest
 /// place in the picture if that is outside), and its solid angle. Where they change within the
 /// disc, x and y are the largest; in a fisheye both are the larger of the radial and the
-/// tangential angle.
+/// tangential angle, in an octahedral map both are the larger.
 struct PixelExtent {
   Angle x, y;
   SolidAngle area;

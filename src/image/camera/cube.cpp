@@ -15,6 +15,7 @@ CubeFaceOrigin cell_of(CubeLayout layout, CubeFace face) {
   const int index = static_cast<int>(face);
   if (layout == CubeLayout::horizontal_strip) return {index, 0};
   if (layout == CubeLayout::vertical_strip) return {0, index};
+  if (layout == CubeLayout::vertical_cross && face == CubeFace::neg_z) return {1, 3};
   switch (face) {
     case CubeFace::pos_x:
       return {0, 1};
@@ -42,7 +43,9 @@ CubeFace face_of(const glm::dvec3& d) {
 }  // namespace
 
 CubeFaceAxes cube_face_axes(CubeLayout layout, CubeFace face) {
-  const double turn = layout == CubeLayout::cross ? -1 : 1;  // of the upper and the lower face
+  const bool cross = layout == CubeLayout::cross || layout == CubeLayout::vertical_cross;
+  const double turn = cross ? -1 : 1;  // of the upper and the lower face
+  const double turn_behind = layout == CubeLayout::vertical_cross ? -1 : 1;
   switch (face) {
     case CubeFace::pos_x:
       return {-kRight, kAhead, kUp};
@@ -57,7 +60,7 @@ CubeFaceAxes cube_face_axes(CubeLayout layout, CubeFace face) {
     case CubeFace::neg_z:
       break;
   }
-  return {-kAhead, -kRight, kUp};
+  return {-kAhead, -turn_behind * kRight, turn_behind * kUp};
 }
 
 int cube_face_size(const Camera& camera) {
@@ -66,6 +69,8 @@ int cube_face_size(const Camera& camera) {
       return camera.height;
     case CubeLayout::vertical_strip:
       return camera.width;
+    case CubeLayout::vertical_cross:
+      return camera.width / 3;
     case CubeLayout::cross:
       break;
   }

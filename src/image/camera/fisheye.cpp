@@ -9,7 +9,12 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double half_fov_rad(const Camera& camera) { return 0.5 * camera.field_of_view.in(rad); }
+double half_fov_rad(const Camera& camera) { return fisheye_theta_max(camera).in(rad); }
+
+/// Of the camera's forward axis along the lens's own.
+double axis_sign(const Camera& camera) {
+  return camera.projection == Projection::mirror_ball ? -1 : 1;
+}
 
 /// cos(theta) and sin(theta) / r at r: trigonometry only where the lens itself has it.
 struct LensAngle {
@@ -20,6 +25,7 @@ struct LensAngle {
 std::optional<LensAngle> lens_angle(const Camera& camera, double r) {
   const double m = half_fov_rad(camera);
   switch (camera.projection) {
+    case Projection::mirror_ball:
     case Projection::fisheye_equisolid: {
       const double s = std::sin(0.5 * m);
       const double s2 = s * s * r * r;
@@ -43,6 +49,7 @@ std::optional<LensAngle> lens_angle(const Camera& camera, double r) {
 double density(const Camera& camera, double r2) {
   const double m = half_fov_rad(camera);
   switch (camera.projection) {
+    case Projection::mirror_ball:
     case Projection::fisheye_equisolid: {
       const double s2 = std::sin(0.5 * m) * std::sin(0.5 * m);
       return s2 * r2 <= 1 ? 4 * s2 : 0;
@@ -86,6 +93,14 @@ FisheyeCircle fisheye_circle(const Camera& camera) {
   return {0.5 * camera.width, 0.5 * camera.height, 0.5 * std::min(camera.width, camera.height)};
 }
 
+Direction<CameraFrame> fisheye_axis(const Camera& camera) {
+  return Direction<CameraFrame>::from_vector({0, 0, axis_sign(camera)});
+}
+
+Angle fisheye_theta_max(const Camera& camera) {
+  return camera.projection == Projection::mirror_ball ? kPi * rad : 0.5 * camera.field_of_view;
+}
+
 double fisheye_radius_at(const Camera& camera, PixelPosition position) {
   const auto [cx, cy, radius] = fisheye_circle(camera);
   return std::hypot(position.x - cx, position.y - cy) / radius;
@@ -100,6 +115,7 @@ std::optional<Angle> fisheye_theta(const Camera& camera, double r) {
 double fisheye_r(const Camera& camera, Angle theta) {
   const double m = half_fov_rad(camera), t = theta.in(rad);
   switch (camera.projection) {
+    case Projection::mirror_ball:
     case Projection::fisheye_equisolid:
       return std::sin(0.5 * t) / std::sin(0.5 * m);
     case Projection::fisheye_stereographic:
@@ -116,14 +132,14 @@ std::optional<Direction<CameraFrame>> fisheye_ray(const Camera& camera, PixelPos
   const auto lens = lens_angle(camera, std::hypot(x, y));
   if (!lens) return {};
   const double k = lens->sin_theta_over_r;
-  return Direction<CameraFrame>::from_vector({k * x, k * y, lens->cos_theta});
+  return Direction<CameraFrame>::from_vector({k * x, k * y, axis_sign(camera) * lens->cos_theta});
 }
 
 std::optional<PixelPosition> fisheye_position(const Camera& camera,
                                               const Direction<CameraFrame>& direction) {
   const auto [cx, cy, radius] = fisheye_circle(camera);
   const double sin_theta = std::hypot(direction.x(), direction.y());
-  const double r = fisheye_r(camera, atan2_angle(sin_theta, direction.z()));
+  const double r = fisheye_r(camera, atan2_angle(sin_theta, axis_sign(camera) * direction.z()));
   if (!std::isfinite(r)) return {};
   if (sin_theta == 0) return PixelPosition{cx + radius * r, cy};  // r = 0, or straight behind
   return PixelPosition{cx + radius * r * (direction.x() / sin_theta),

@@ -164,7 +164,7 @@ Footprint fisheye_footprint(const Camera& camera, const Direction<CameraFrame>& 
                             CellGrid grid) {
   constexpr double kFarthest = 2;  // radii of the image circle
   const auto [cx, cy, circle_px] = fisheye_circle(camera);
-  const double theta = std::atan2(std::hypot(c.x(), c.y()), c.z()), rho = radius.in(rad);
+  const double theta = separation(c, fisheye_axis(camera)).in(rad), rho = radius.in(rad);
   Footprint f;
   Sector s{fisheye_r(camera, std::max(0.0, theta - rho) * rad),
            fisheye_r(camera, std::min(kPi, theta + rho) * rad), std::atan2(-c.y(), c.x()), kPi};
@@ -198,6 +198,69 @@ Footprint fisheye_footprint(const Camera& camera, const Direction<CameraFrame>& 
   return f;
 }
 
+// ---- octahedral
+
+/// Rectangle of cells.
+struct CellBlock {
+  int64_t x0, x1, y0, y1;
+};
+
+/// Cells of a block that lie on the chart's octant.
+void add_block(Footprint& f, const Chart& chart, CellBlock b, CellGrid grid) {
+  for (int64_t row = b.y0; row < b.y1; ++row) {
+    CellSpan span{row, b.x1, b.x1};
+    for (int64_t i = b.x0; i < b.x1; ++i) {
+      const PixelPosition p{(double(i) + 0.5) / grid.columns, (double(row) + 0.5) / grid.rows};
+      if (octant_at(chart.camera, p) != chart.octant) continue;
+      span.begin = std::min(span.begin, i);
+      span.end = i + 1;
+    }
+    // Of a row an octant holds what is contiguous.
+    if (span.begin < b.x1) f.spans.push_back(span);
+  }
+}
+
+Footprint octahedral_footprint(const Chart& chart, const Direction<CameraFrame>& c, Angle radius,
+                               CellGrid grid) {
+  constexpr int64_t kSmallest = 4;  // cells: a block that is not halved any more
+  const Camera& camera = chart.camera;
+  const int64_t columns = int64_t{camera.width} * grid.columns;
+  const int64_t rows = int64_t{camera.height} * grid.rows;
+  const auto near = [&](const CellBlock& b) {
+    const PixelPosition middle{0.5 * double(b.x0 + b.x1) / grid.columns,
+                               0.5 * double(b.y0 + b.y1) / grid.rows};
+    const double half_diagonal =
+        std::hypot(double(b.x1 - b.x0) / double(columns), double(b.y1 - b.y0) / double(rows));
+    return separation(octahedral_ray(camera, middle), c).in(rad) <
+           radius.in(rad) + kOctahedralStretch * half_diagonal;
+  };
+  // The octant's quarter of the picture; the cells that its edge halves count to both.
+  const auto half = [](int sign, int64_t count) {
+    return sign > 0 ? Interval{double(count / 2), double(count)}
+                    : Interval{0, double((count + 1) / 2)};
+  };
+  const Interval x = half(chart.octant->u, columns), y = half(chart.octant->v, rows);
+  std::vector<CellBlock> blocks{
+      {int64_t(x.begin), int64_t(x.end), int64_t(y.begin), int64_t(y.end)}};
+  Footprint f;
+  while (!blocks.empty()) {
+    const CellBlock b = blocks.back();
+    blocks.pop_back();
+    if (b.x0 >= b.x1 || b.y0 >= b.y1 || !near(b)) continue;
+    const int64_t w = b.x1 - b.x0, h = b.y1 - b.y0;
+    if (std::max(w, h) <= kSmallest) {
+      add_block(f, chart, b, grid);
+    } else if (w >= h) {
+      blocks.push_back({b.x0, b.x0 + w / 2, b.y0, b.y1});
+      blocks.push_back({b.x0 + w / 2, b.x1, b.y0, b.y1});
+    } else {
+      blocks.push_back({b.x0, b.x1, b.y0, b.y0 + h / 2});
+      blocks.push_back({b.x0, b.x1, b.y0 + h / 2, b.y1});
+    }
+  }
+  return f;
+}
+
 }  // namespace
 
 Footprint footprint(const Chart& chart, const Direction<CameraFrame>& centre, Angle radius,
@@ -209,6 +272,9 @@ Footprint footprint(const Chart& chart, const Direction<CameraFrame>& centre, An
       return cube_footprint(chart, centre, radius, grid);
     case Projection::lat_long:
       return lat_long_footprint(chart.camera, centre, radius, grid);
+    case Projection::octahedral:
+      return octahedral_footprint(chart, centre, radius, grid);
+    case Projection::mirror_ball:
     case Projection::fisheye_equidistant:
     case Projection::fisheye_equisolid:
     case Projection::fisheye_stereographic:

@@ -1,12 +1,14 @@
 #include "sky/bruneton/slice_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "core/parallel.h"
+#include "image/camera/octahedral.h"
 #include "sky/bruneton/slice_table.h"
 #include "sky/facet.h"
 
@@ -72,6 +74,16 @@ glm::vec3 horizon_pixel(const Scene& scene, const Facet& facet, int column, int 
   return glm::vec3(split.share * sky + (1 - split.share) * ground);
 }
 
+int octahedral_coordinates(const kernel::Shape& shape, const kernel::RowView& view, int count,
+                           BlockCoordinates& out) {
+  std::array<kernel::Vec3d, kBlock> directions;
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 d = image::octahedral_direction(view.x_first + i * view.x_step, -view.y);
+    directions[size_t(i)] = {d.x, d.y, d.z};
+  }
+  return kernel::direction_coordinates(shape, view, directions.data(), count, out);
+}
+
 int coordinates(const kernel::Shape& shape, const Facet& facet, const kernel::RowView& view,
                 int count, BlockCoordinates& out) {
   switch (facet.lens) {
@@ -81,6 +93,8 @@ int coordinates(const kernel::Shape& shape, const Facet& facet, const kernel::Ro
       return kernel::equisolid_coordinates(shape, view, facet.lens_factor, count, out);
     case Facet::Lens::stereographic:
       return kernel::stereographic_coordinates(shape, view, facet.lens_factor, count, out);
+    case Facet::Lens::octahedral:
+      return octahedral_coordinates(shape, view, count, out);
     case Facet::Lens::equidistant:
       break;
   }

@@ -173,6 +173,16 @@ int stereographic_coordinates(const Shape& shape, const RowView& view, double k,
 }
 
 SKYLAPSE_CLONES
+int direction_coordinates(const Shape& shape, const RowView& view, const Vec3d* directions,
+                          int count, BlockCoordinates& out) {
+  int near = 0;
+  for (int i = 0; i < count; ++i)
+    near += place_camera_direction(shape, view, directions[i].x, directions[i].y, directions[i].z,
+                                   i, out);
+  return near;
+}
+
+SKYLAPSE_CLONES
 void look_up(const float* table, int azimuths, const BlockCoordinates& place, int count,
              float* rgb) {
   const int stride = azimuths * kNodeFloats;

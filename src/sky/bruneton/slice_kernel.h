@@ -68,6 +68,10 @@ int equisolid_coordinates(const Shape& shape, const RowView& view, double k, int
 int stereographic_coordinates(const Shape& shape, const RowView& view, double k, int count,
                               BlockCoordinates& out);
 
+/// Any lens: unit vectors in the camera's axes.
+int direction_coordinates(const Shape& shape, const RowView& view, const Vec3d* directions,
+                          int count, BlockCoordinates& out);
+
 /// Reads the table at the block's coordinates into interleaved RGB; negative values become 0.
 void look_up(const float* table, int azimuths, const BlockCoordinates& place, int count,
              float* rgb);

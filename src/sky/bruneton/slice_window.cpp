@@ -89,9 +89,7 @@ NodeRange nodes_between(double low, double high, int nodes) {
 
 SliceWindow window_of(const image::Camera& camera, const SliceGrid& grid,
                       const Direction<Enu>& sun) {
-  if (camera.projection == image::Projection::lat_long ||
-      camera.projection == image::Projection::cube)
-    return whole_window(grid);
+  if (sees_whole_sphere(camera.projection)) return whole_window(grid);
   const View view = view_of(camera, facets_of(camera).front(), sun);
   const int half = grid.zeniths / 2;
   const double over_low = grid.horizon_zenith_rad - view.farthest_zenith;

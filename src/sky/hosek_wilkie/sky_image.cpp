@@ -1,12 +1,14 @@
 #include "sky/hosek_wilkie/sky_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "core/parallel.h"
+#include "image/camera/octahedral.h"
 #include "sky/facet.h"
 #include "sky/hosek_wilkie/frame_table.h"
 #include "sky/hosek_wilkie/sky_kernel.h"
@@ -53,6 +55,16 @@ glm::vec3 horizon_pixel(const Scene& scene, const Facet& facet, int column, int 
   return share * sky + (1 - share) * scene.ground;
 }
 
+int octahedral_coordinates(const kernel::RowView& view, int count, BlockCoordinates& out) {
+  std::array<kernel::Vec3f, kBlock> directions;
+  for (int i = 0; i < count; ++i) {
+    const glm::vec3 d(
+        image::octahedral_direction(double(view.x_first) + double(i) * view.x_step, -view.y));
+    directions[size_t(i)] = {d.x, d.y, d.z};
+  }
+  return kernel::direction_coordinates(view, directions.data(), count, out);
+}
+
 int coordinates(const Facet& facet, const kernel::RowView& view, int count, BlockCoordinates& out) {
   const float k = static_cast<float>(facet.lens_factor);
   switch (facet.lens) {
@@ -64,6 +76,8 @@ int coordinates(const Facet& facet, const kernel::RowView& view, int count, Bloc
       return kernel::equisolid_coordinates(view, k, count, out);
     case Facet::Lens::stereographic:
       return kernel::stereographic_coordinates(view, k, count, out);
+    case Facet::Lens::octahedral:
+      return octahedral_coordinates(view, count, out);
   }
   return 0;
 }

@@ -319,6 +319,15 @@ int equisolid_coordinates(const RowView& view, float k, int count, BlockCoordina
 }
 
 SKYLAPSE_CLONES
+int direction_coordinates(const RowView& view, const Vec3f* directions, int count,
+                          BlockCoordinates& out) {
+  int low = 0;
+  for (int i = 0; i < count; ++i)
+    low += place_direction(view, directions[i].x, directions[i].y, directions[i].z, i, out);
+  return low;
+}
+
+SKYLAPSE_CLONES
 int stereographic_coordinates(const RowView& view, float k, int count, BlockCoordinates& out) {
   return fisheye_coordinates(view, count, out, [k](float r2, float& s_over_r, float& c) {
     c = 1.0f / std::sqrt(1.0f + k * k * r2);

@@ -63,6 +63,10 @@ int equidistant_coordinates(const RowView& view, float k, int count, BlockCoordi
 int equisolid_coordinates(const RowView& view, float k, int count, BlockCoordinates& out);
 int stereographic_coordinates(const RowView& view, float k, int count, BlockCoordinates& out);
 
+/// Any lens: unit vectors in the camera's axes.
+int direction_coordinates(const RowView& view, const Vec3f* directions, int count,
+                          BlockCoordinates& out);
+
 /// Reads the table at the block's coordinates into interleaved RGB; negative values become 0.
 void look_up(const float* table, const BlockCoordinates& place, int count, float* rgb);
 
