@@ -15,8 +15,9 @@ namespace skylapse::output {
 
 enum class SampleType { u8, u16, half_float, float32 };
 
-/// What a half-float file does with radiance beyond 65504 (the sun's disc).
+/// What a half-float or RGBE file does with radiance beyond 65504 (the sun's disc).
 enum class SunPolicy {
+  float32,  // nothing is given up: a half file that does not fit is written in 32-bit floats
   refuse,  // an error before anything is rendered
   clip,    // limited to 65504; the loss of irradiance is recorded
   scale,   // the whole image scaled by a power of two that is recorded (whiteLuminance follows)

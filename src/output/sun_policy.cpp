@@ -70,6 +70,8 @@ Result<SunPolicyRecord> apply_sun_policy(image::FrameBuffer& frame, SunPolicy po
                                          const image::FrameBuffer* sky_only) {
   SunPolicyRecord record{.policy = policy, .pixels_beyond_half = count_beyond(frame)};
   switch (policy) {
+    case SunPolicy::float32:
+      return record;
     case SunPolicy::refuse:
       if (record.pixels_beyond_half > 0) return refused(largest_magnitude(frame));
       return record;
@@ -104,6 +106,8 @@ Result<SunPolicyRecord> apply_sun_policy(image::FrameBuffer& frame, SunPolicy po
 
 std::string sun_policy_name(SunPolicy policy) {
   switch (policy) {
+    case SunPolicy::float32:
+      return "float";
     case SunPolicy::refuse:
       return "refuse";
     case SunPolicy::clip:

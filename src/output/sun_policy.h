@@ -28,6 +28,7 @@ struct SunPolicyRecord {
 bool exceeds_half(const image::FrameBuffer& frame);
 
 /// Makes `frame` fit a half-float file, in place.
+///   float32 leaves it as it is: the file's type follows
 ///   refuse  error (invalid_input) naming the brightest sample, if there is one beyond 65504
 ///   clip    limits samples to +-65504
 ///   scale   multiplies all samples by the largest power of two that makes them fit (exact but for
@@ -38,7 +39,7 @@ bool exceeds_half(const image::FrameBuffer& frame);
 Result<SunPolicyRecord> apply_sun_policy(image::FrameBuffer& frame, SunPolicy policy,
                                          const image::FrameBuffer* sky_only = nullptr);
 
-/// "refuse", "clip", "scale", "split".
+/// "float", "refuse", "clip", "scale", "split".
 std::string sun_policy_name(SunPolicy policy);
 
 }  // namespace skylapse::output

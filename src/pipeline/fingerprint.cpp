@@ -6,6 +6,7 @@
 #include "core/sha256.h"
 #include "core/version.h"
 #include "output/atomic_file.h"
+#include "pipeline/output_view.h"
 #include "plan/effect_planner.h"
 #include "plan/table_settings.h"
 
@@ -127,6 +128,8 @@ std::string image_fingerprint(const plan::Plan& plan, const plan::Frame& frame,
                               const config::ImageOutput& output, const std::string& color_config) {
   json all = frame_json(plan, frame);
   all["index"] = frame.index;
+  all["view_camera"] = camera_json(view_of_output(plan, frame, output).camera);
+  if (output.orientation) all["orientation"] = int(*output.orientation);
   all["format"] = output.format;
   all["content"] = int(output.content);
   all["sample"] = int(output.sample_type);
@@ -138,6 +141,23 @@ std::string image_fingerprint(const plan::Plan& plan, const plan::Frame& frame,
     all["view"] = output.view.value_or("");
     all["color_config"] = color_config;
   }
+  return sha256_hex(all.dump());
+}
+
+std::string product_fingerprint(const plan::Plan& plan, const plan::Frame& frame,
+                                const config::ProductOutput& output) {
+  json all = frame_json(plan, frame);
+  all["index"] = frame.index;
+  all["product"] = int(output.kind);
+  all["format"] = output.format;
+  all["sample"] = int(output.sample_type);
+  if (output.view) all["view_camera"] = camera_json(*output.view);
+  all["levels"] = output.levels;
+  all["orientation"] = int(output.orientation);
+  all["with_disc"] = output.sun_disc;
+  // A dome names its map relative to itself, so both places count.
+  all["map"] = output.map_path.value;
+  if (output.kind == config::ProductKind::dome) all["path"] = output.path.value;
   return sha256_hex(all.dump());
 }
 

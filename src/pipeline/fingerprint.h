@@ -15,6 +15,10 @@ std::string scene_fingerprint(const plan::Plan& plan, const plan::Frame& frame);
 std::string image_fingerprint(const plan::Plan& plan, const plan::Frame& frame,
                               const config::ImageOutput& output, const std::string& color_config);
 
+/// Of the file or files that a product output writes for a frame.
+std::string product_fingerprint(const plan::Plan& plan, const plan::Frame& frame,
+                                const config::ProductOutput& output);
+
 /// Of a movie: its settings and the fingerprints of its frames in order.
 std::string movie_fingerprint(const config::MovieOutput& output,
                               const std::vector<std::string>& frame_fingerprints);

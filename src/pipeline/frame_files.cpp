@@ -1,6 +1,7 @@
 #include "pipeline/frame_files.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "color/dither.h"
 #include "color/exposure.h"
@@ -12,6 +13,9 @@
 #include "output/metadata.h"
 #include "output/sun_policy.h"
 #include "pipeline/fingerprint.h"
+#include "pipeline/output_view.h"
+#include "pipeline/products/product.h"
+#include "pipeline/reference_sky.h"
 
 namespace skylapse::pipeline {
 namespace {
@@ -72,9 +76,9 @@ output::EnvironmentMap environment_of(const config::CameraConfig& camera) {
   return openexr_cube ? output::EnvironmentMap::cube : output::EnvironmentMap::none;
 }
 
+/// What every file of a frame says about itself.
 output::FrameMetadata metadata_of(const plan::Plan& plan, const plan::Frame& frame,
-                                  const config::ImageOutput& output, bool display,
-                                  const std::string& fingerprint, const RenderedFrame& rendered) {
+                                  const FrameLight& light, const std::string& fingerprint) {
   const config::JobConfig& job = plan.job;
   output::FrameMetadata meta;
   meta.utc = frame.instant.utc;
@@ -87,16 +91,46 @@ output::FrameMetadata metadata_of(const plan::Plan& plan, const plan::Frame& fra
   meta.moon = frame.sky.moon_apparent;
   meta.sun_radius = frame.sky.sun_radius;
   if (const auto space = color::rgb_space_from_name(job.color.space)) meta.space = *space;
-  meta.encoding = display ? output::PixelEncoding::display : output::PixelEncoding::absolute;
-  meta.display = output.display.value_or("");
-  meta.view = output.view.value_or("");
-  meta.environment = environment_of(job.cameras[frame.camera]);
   meta.exposure_ev100 = frame.ev;
   meta.model = plan::name_of(plan.model);
   meta.extrapolated = frame.sun.extrapolated;
   meta.fingerprint = fingerprint;
-  meta.sun_illuminance = rendered.sun_normal_irradiance_xyz.y * kLuminousEfficacy * lux;
+  meta.sun_illuminance = light.disc_energy.normal_irradiance.y * kLuminousEfficacy * lux;
   return meta;
+}
+
+output::FrameMetadata metadata_of_image(const FrameSource& source,
+                                        const config::ImageOutput& output, bool display,
+                                        const config::CameraConfig& camera,
+                                        const std::string& fingerprint) {
+  auto meta = metadata_of(source.plan, source.frame, source.light, fingerprint);
+  meta.encoding = display ? output::PixelEncoding::display : output::PixelEncoding::absolute;
+  meta.display = output.display.value_or("");
+  meta.view = output.view.value_or("");
+  meta.environment = environment_of(camera);
+  return meta;
+}
+
+/// The pixels of one image output, before anything is given up for a file format.
+struct Picture {
+  image::FrameBuffer scene;
+  std::optional<image::FrameBuffer> without_disc;  // for the sun policy `split`
+};
+
+Result<Picture> picture_of(const FrameLight& light, const image::Camera& camera,
+                           const config::ImageOutput& output, StageTimes& times) {
+  auto sky = light.picture(camera, Disc::without, times);
+  if (!sky) return sky.error();
+  Picture picture{*std::move(sky), {}};
+  if (output.content == config::ImageContent::standard_error) {
+    if (light.sky.noise) picture.scene = light.sky.noise->standard_error;
+    return picture;
+  }
+  if (output.content == config::ImageContent::sky || !light.disc_shows) return picture;
+  if (output.sun_policy == output::SunPolicy::split) picture.without_disc = picture.scene;
+  const StageTimer timer(times, Stage::disc);
+  sky::add_sun_disc(camera, light.disc, picture.scene);
+  return picture;
 }
 
 /// The samples of an output in the type its file holds, owned here.
@@ -109,7 +143,7 @@ struct Samples {
   size_t bytes_per_row = 0;
 };
 
-Result<Samples> samples_of(const plan::Frame& frame, const RenderedFrame& rendered,
+Result<Samples> samples_of(const plan::Frame& frame, const Picture& rendered,
                            const config::ImageOutput& output,
                            const output::DisplayTransform* display, output::FrameMetadata& meta) {
   Samples s;
@@ -127,13 +161,12 @@ Result<Samples> samples_of(const plan::Frame& frame, const RenderedFrame& render
     s.data = reinterpret_cast<const std::byte*>(s.display.data());
     s.bytes_per_row = sizeof(float) * row_samples;
   } else {
-    const bool errors = output.content == config::ImageContent::standard_error && rendered.noise;
-    const image::FrameBuffer* pixels = errors ? &rendered.noise->standard_error : &rendered.scene;
-    if (!errors && output.sample_type == SampleType::half_float) {
+    const image::FrameBuffer* pixels = &rendered.scene;
+    if (output.sample_type == SampleType::half_float) {
       s.linear = rendered.scene;
       const auto record = output::apply_sun_policy(
           s.linear, output.sun_policy,
-          rendered.scene_without_disc ? &*rendered.scene_without_disc : nullptr);
+          rendered.without_disc ? &*rendered.without_disc : &rendered.scene);
       if (!record) return record.error();
       meta.sun_policy = *record;
       pixels = &s.linear;
@@ -144,21 +177,21 @@ Result<Samples> samples_of(const plan::Frame& frame, const RenderedFrame& render
   return s;
 }
 
-std::map<std::string, double> light_record(const RenderedFrame& rendered) {
+std::map<std::string, double> light_record(const FrameLight& light) {
   const auto lux_of = [](const glm::dvec3& xyz) { return xyz.y * kLuminousEfficacy; };
-  return {{"sky_horizontal_lux", lux_of(rendered.sky_irradiance_xyz)},
-          {"sun_horizontal_lux", lux_of(rendered.sun_irradiance_xyz)},
-          {"sun_normal_lux", lux_of(rendered.sun_normal_irradiance_xyz)}};
+  return {{"sky_horizontal_lux", lux_of(light.sky.sky_irradiance_xyz)},
+          {"sun_horizontal_lux", lux_of(light.disc_energy.horizontal_irradiance)},
+          {"sun_normal_lux", lux_of(light.disc_energy.normal_irradiance)}};
 }
 
-std::map<std::string, double> noise_record(const RenderedFrame& rendered) {
-  if (!rendered.noise) return {};
-  const auto& record = rendered.noise->record;
+std::map<std::string, double> noise_record(const FrameLight& light) {
+  if (!light.sky.noise) return {};
+  const auto& record = light.sky.noise->record;
   return {{"paths", double(record.paths)},
           {"mean_relative_error", record.mean_relative_error},
           {"max_relative_error", record.max_relative_error},
           {"share_of_pixels_reached", record.share_reached},
-          {"sky_horizontal_relative_error", rendered.noise->sky_irradiance_error}};
+          {"sky_horizontal_relative_error", light.sky.noise->sky_irradiance_error}};
 }
 
 std::map<std::string, double> encoding_record(const output::FrameMetadata& meta) {
@@ -166,6 +199,23 @@ std::map<std::string, double> encoding_record(const output::FrameMetadata& meta)
   return {{"scale", meta.sun_policy->scale},
           {"pixels_beyond_half", double(meta.sun_policy->pixels_beyond_half)},
           {"lost_fraction", meta.sun_policy->lost_fraction}};
+}
+
+/// Writes a finished file and describes it for the ledger.
+Result<LedgerEntry> write_and_describe(const FrameSource& source, const std::string& file,
+                                       const std::string& fingerprint,
+                                       std::span<const std::byte> bytes, StageTimes& times) {
+  const StageTimer timer(times, Stage::write);
+  const Status written = output::write_file_atomically(source.folder / file, bytes);
+  if (!written) return written.error();
+  LedgerEntry entry;
+  entry.path = file;
+  entry.fingerprint = fingerprint;
+  entry.sha256 = sha256_hex(bytes);
+  entry.bytes = bytes.size();
+  entry.light = light_record(source.light);
+  entry.noise = noise_record(source.light);
+  return entry;
 }
 
 }  // namespace
@@ -210,27 +260,29 @@ std::vector<uint8_t> display_picture(const plan::Frame& frame, const RenderedFra
   return quantised_u8(frame, rendered.scene, display);
 }
 
-Result<std::vector<LedgerEntry>> write_image_output(
-    const output::ImageIo& io, const plan::Plan& plan, const plan::Frame& frame,
-    const RenderedFrame& rendered, size_t index, const Displays& displays,
-    const std::filesystem::path& folder, const std::string& fingerprint, StageTimes& times) {
-  const auto& output = std::get<config::ImageOutput>(plan.job.outputs[index]);
-  const output::DisplayTransform* display = displays.of(index);
-  auto meta = metadata_of(plan, frame, output, display != nullptr, fingerprint, rendered);
+Result<std::vector<LedgerEntry>> write_image_output(const FrameSource& source, size_t index,
+                                                    const std::string& fingerprint,
+                                                    StageTimes& times) {
+  const auto& output = std::get<config::ImageOutput>(source.plan.job.outputs[index]);
+  const output::DisplayTransform* display = source.displays.of(index);
+  const OutputView view = view_of_output(source.plan, source.frame, output);
+  auto meta = metadata_of_image(source, output, display != nullptr, view.camera, fingerprint);
+  const auto picture = picture_of(source.light, view.camera.camera, output, times);
+  if (!picture) return picture.error();
   Result<Samples> samples = [&] {
     const StageTimer timer(times, Stage::display);
-    return samples_of(frame, rendered, output, display, meta);
+    return samples_of(source.frame, *picture, output, display, meta);
   }();
   if (!samples) {
     Error error = samples.error();
     error.span = output.sun_policy_span.line > 0 ? output.sun_policy_span : output.path.span;
     return error;
   }
-  const auto files = plan::files_of(plan, frame, index);
+  const auto files = plan::files_of(source.plan, source.frame, index);
   output::EncodeRequest request;
   request.format = output.format;
-  request.width = rendered.scene.width();
-  request.height = rendered.scene.height() / int(files.size());
+  request.width = picture->scene.width();
+  request.height = picture->scene.height() / int(files.size());
   request.type = output.sample_type;
   request.compression = output.compression;
   request.quality = output.quality;
@@ -238,27 +290,42 @@ Result<std::vector<LedgerEntry>> write_image_output(
 
   std::vector<LedgerEntry> entries;
   for (size_t part = 0; part < files.size(); ++part) {
-    request.pixels = samples->data + samples->bytes_per_row * size_t(request.height) * part;
-    StageTimes file_times;
+    const size_t face = files.size() == 1 ? 0 : size_t(view.faces[part]);
+    request.pixels = samples->data + samples->bytes_per_row * size_t(request.height) * face;
     Result<std::vector<std::byte>> bytes = [&] {
-      const StageTimer timer(file_times, Stage::encode);
-      return io.encode(request);
+      const StageTimer timer(times, Stage::encode);
+      return source.io.encode(request);
     }();
     if (!bytes) return bytes.error();
-    {
-      const StageTimer timer(file_times, Stage::write);
-      const Status written = output::write_file_atomically(folder / files[part], *bytes);
-      if (!written) return written.error();
-    }
-    times += file_times;
-    entries.push_back({files[part],
-                       fingerprint,
-                       sha256_hex(*bytes),
-                       bytes->size(),
-                       {},
-                       encoding_record(meta),
-                       light_record(rendered),
-                       noise_record(rendered)});
+    auto entry = write_and_describe(source, files[part], fingerprint, *bytes, times);
+    if (!entry) return entry.error();
+    entry->encoding = encoding_record(meta);
+    entries.push_back(*std::move(entry));
+  }
+  return entries;
+}
+
+Result<std::vector<LedgerEntry>> write_product(const FrameSource& source, size_t index,
+                                               const std::string& fingerprint, StageTimes& times) {
+  const auto& output = std::get<config::ProductOutput>(source.plan.job.outputs[index]);
+  const auto files = plan::files_of(source.plan, source.frame, index);
+  const ProductRequest request{
+      source.plan,  source.frame, output,
+      source.light, source.io,    metadata_of(source.plan, source.frame, source.light, fingerprint),
+      files};
+  const auto made = make_product(request, times);
+  if (!made) {
+    Error error = made.error();
+    if (error.span.line == 0) error.span = output.path.span;
+    return error;
+  }
+  assert(made->size() == files.size());
+  std::vector<LedgerEntry> entries;
+  for (size_t i = 0; i < files.size(); ++i) {
+    auto entry = write_and_describe(source, files[i], fingerprint, (*made)[i].bytes, times);
+    if (!entry) return entry.error();
+    entry->encoding = (*made)[i].encoding;
+    entries.push_back(*std::move(entry));
   }
   return entries;
 }

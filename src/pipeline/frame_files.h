@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "output/image_writer.h"
+#include "pipeline/frame_light.h"
 #include "pipeline/ledger.h"
 #include "pipeline/render_frame.h"
 #include "plan/plan.h"
@@ -30,10 +31,23 @@ class Displays {
 std::vector<uint8_t> display_picture(const plan::Frame& frame, const RenderedFrame& rendered,
                                      const output::DisplayTransform& display, StageTimes& times);
 
-/// Encodes one image output of a frame and writes its file or files; one ledger entry for each.
-Result<std::vector<LedgerEntry>> write_image_output(
-    const output::ImageIo& io, const plan::Plan& plan, const plan::Frame& frame,
-    const RenderedFrame& rendered, size_t output, const Displays& displays,
-    const std::filesystem::path& folder, const std::string& fingerprint, StageTimes& times);
+/// What all files of a frame are made from.
+struct FrameSource {
+  const output::ImageIo& io;
+  const plan::Plan& plan;
+  const plan::Frame& frame;
+  const FrameLight& light;
+  const Displays& displays;
+  std::filesystem::path folder;
+};
+
+/// Renders, encodes and writes one image output of a frame; one ledger entry for each of its files.
+Result<std::vector<LedgerEntry>> write_image_output(const FrameSource& source, size_t output,
+                                                    const std::string& fingerprint,
+                                                    StageTimes& times);
+
+/// Makes and writes one product of a frame; one ledger entry for each of its files.
+Result<std::vector<LedgerEntry>> write_product(const FrameSource& source, size_t output,
+                                               const std::string& fingerprint, StageTimes& times);
 
 }  // namespace skylapse::pipeline

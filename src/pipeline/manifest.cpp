@@ -8,6 +8,7 @@
 #include "color/rgb_space.h"
 #include "core/constants.h"
 #include "core/version.h"
+#include "image/orientation.h"
 #include "output/atomic_file.h"
 #include "output/sun_policy.h"
 #include "pipeline/movie_pass.h"
@@ -51,48 +52,75 @@ ordered_json sites_json(const config::JobConfig& job) {
   return sites;
 }
 
-ordered_json cameras_json(const config::JobConfig& job) {
+ordered_json camera_json(const config::CameraConfig& camera) {
   constexpr std::array kProjections{"perspective",       "fisheye-equidistant",
                                     "fisheye-equisolid", "fisheye-stereographic",
-                                    "lat-long",          "cube"};
+                                    "lat-long",          "cube",
+                                    "octahedral",        "mirror-ball"};
+  const auto forward = Direction<Enu>::from_vector(glm::dvec3(camera.camera.camera_to_enu[2]));
+  return {{"name", camera.name},
+          {"projection", kProjections[size_t(camera.camera.projection)]},
+          {"width", camera.camera.width},
+          {"height", camera.camera.height},
+          {"field_of_view_deg", camera.camera.field_of_view.in(deg)},
+          {"azimuth_deg", azimuth(forward).in(deg)},
+          {"elevation_deg", elevation(forward).in(deg)}};
+}
+
+ordered_json cameras_json(const config::JobConfig& job) {
   auto cameras = ordered_json::array();
-  for (const config::CameraConfig& camera : job.cameras) {
-    const glm::dvec3 forward = camera.camera.camera_to_enu[2];
-    const auto direction = Direction<Enu>::from_vector(forward);
-    cameras.push_back({{"name", camera.name},
-                       {"projection", kProjections[size_t(camera.camera.projection)]},
-                       {"width", camera.camera.width},
-                       {"height", camera.camera.height},
-                       {"field_of_view_deg", camera.camera.field_of_view.in(deg)},
-                       {"azimuth_deg", azimuth(direction).in(deg)},
-                       {"elevation_deg", elevation(direction).in(deg)}});
-  }
+  for (const config::CameraConfig& camera : job.cameras) cameras.push_back(camera_json(camera));
   return cameras;
 }
 
-ordered_json outputs_json(const config::JobConfig& job) {
-  constexpr std::array kTypes{"u8", "u16", "half", "float"};
-  auto outputs = ordered_json::array();
-  for (const config::Output& output : job.outputs) {
-    ordered_json o;
-    if (const auto* image = std::get_if<config::ImageOutput>(&output)) {
-      o = {{"image", image->path.value},
-           {"format", image->format},
-           {"type", kTypes[size_t(image->sample_type)]}};
-      if (image->content == config::ImageContent::standard_error) o["content"] = "standard-error";
-      if (image->sample_type == output::SampleType::half_float)
-        o["sun"] = output::sun_policy_name(image->sun_policy);
-      if (image->display) o["display"] = *image->display;
-      if (image->view) o["view"] = *image->view;
-      o["scene_linear"] = !image->display && !image->view;
-    } else {
-      const auto& movie = std::get<config::MovieOutput>(output);
-      o = {{"movie", movie.path.value}, {"fps", movie.frames_per_second}, {"crf", movie.crf}};
-      if (movie.display) o["display"] = *movie.display;
-      if (movie.view) o["view"] = *movie.view;
-    }
-    outputs.push_back(std::move(o));
+constexpr std::array kTypes{"u8", "u16", "half", "float"};
+
+ordered_json output_json(const config::ImageOutput& image) {
+  ordered_json o{{"image", image.path.value},
+                 {"format", image.format},
+                 {"type", kTypes[size_t(image.sample_type)]}};
+  if (image.content == config::ImageContent::standard_error) o["content"] = "standard-error";
+  if (image.content == config::ImageContent::sky) o["content"] = "sky";
+  if (image.own_view) o["camera"] = camera_json(*image.own_view);
+  if (image.orientation) o["orientation"] = std::string(name_of(*image.orientation));
+  const bool displayed = image.display || image.view;
+  if (!displayed && (image.sample_type == output::SampleType::half_float || image.format == "hdr"))
+    o["sun"] = output::sun_policy_name(image.sun_policy);
+  if (image.display) o["display"] = *image.display;
+  if (image.view) o["view"] = *image.view;
+  o["scene_linear"] = !displayed;
+  return o;
+}
+
+ordered_json output_json(const config::MovieOutput& movie) {
+  ordered_json o{{"movie", movie.path.value}, {"fps", movie.frames_per_second}, {"crf", movie.crf}};
+  if (movie.display) o["display"] = *movie.display;
+  if (movie.view) o["view"] = *movie.view;
+  return o;
+}
+
+ordered_json output_json(const config::ProductOutput& product) {
+  constexpr std::array kKinds{"specular", "irradiance", "harmonics", "sun", "dome"};
+  ordered_json o{{kKinds[size_t(product.kind)], product.path.value}, {"format", product.format}};
+  if (product.view) {
+    o["type"] = kTypes[size_t(product.sample_type)];
+    o["camera"] = camera_json(*product.view);
   }
+  if (product.kind == config::ProductKind::specular) o["levels"] = product.levels;
+  if (product.kind == config::ProductKind::dome) o["map"] = product.map_path.value;
+  o["orientation"] = std::string(name_of(product.orientation));
+  return o;
+}
+
+ordered_json output_json(const config::LibraryOutput& library) {
+  constexpr std::array kKinds{"gallery", "sheet"};
+  return {{kKinds[size_t(library.kind)], library.path.value}, {"image", library.image_path.value}};
+}
+
+ordered_json outputs_json(const config::JobConfig& job) {
+  auto outputs = ordered_json::array();
+  for (const config::Output& output : job.outputs)
+    outputs.push_back(std::visit([](const auto& o) { return output_json(o); }, output));
   return outputs;
 }
 
@@ -120,7 +148,7 @@ struct FrameFiles {
 FrameFiles files_of_frame(const JobContext& job, const plan::Frame& frame) {
   FrameFiles found;
   for (size_t o = 0; o < job.plan.job.outputs.size(); ++o) {
-    if (!std::holds_alternative<config::ImageOutput>(job.plan.job.outputs[o])) continue;
+    if (!config::is_per_frame(job.plan.job.outputs[o])) continue;
     const auto paths = plan::files_of(job.plan, frame, o);
     const std::string print =
         job.ledger.knows(paths.front()) ? job.fingerprint(frame, o) : std::string();

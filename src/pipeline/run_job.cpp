@@ -23,18 +23,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-bool is_image(const config::Output& output) {
-  return std::holds_alternative<config::ImageOutput>(output);
-}
-
-bool wants_sky_without_disc(const config::JobConfig& job) {
-  return std::any_of(job.outputs.begin(), job.outputs.end(), [](const config::Output& output) {
-    const auto* image = std::get_if<config::ImageOutput>(&output);
-    return image != nullptr && image->sample_type == output::SampleType::half_float &&
-           image->sun_policy == output::SunPolicy::split;
-  });
-}
-
 /// One frame on its way: which of its outputs are missing, and what came of it.
 struct Task {
   long number = 0;
@@ -78,7 +66,7 @@ class Collector {
 void find_missing(const JobContext& job, Task& task) {
   const plan::Frame& frame = job.frame(task.number);
   for (size_t o = 0; o < job.plan.job.outputs.size(); ++o)
-    if (is_image(job.plan.job.outputs[o]) && (job.options.overwrite || !job.finished(frame, o)))
+    if (is_per_frame(job.plan.job.outputs[o]) && (job.options.overwrite || !job.finished(frame, o)))
       task.missing.push_back(o);
 }
 
@@ -86,22 +74,24 @@ void run_task(const JobContext& job, Task& task) {
   find_missing(job, task);
   if (task.missing.empty()) return;
   const plan::Frame& frame = job.frame(task.number);
-  const auto rendered =
-      render_frame(job.plan, frame, job.atmospheres, wants_sky_without_disc(job.plan.job),
-                   task.times, job.report_paths());
-  if (!rendered) {
-    task.error = rendered.error();
+  const auto light =
+      light_of_frame(job.plan, frame, job.atmospheres, task.times, job.report_paths());
+  if (!light) {
+    task.error = light.error();
     return;
   }
+  const FrameSource source{job.io, job.plan, frame, *light, job.displays, job.options.output};
   const StageTimes of_frame = task.times;
   for (const size_t o : task.missing) {
     if (job.stopped()) {
       task.error = interrupted();
       return;
     }
-    StageTimes own;  // of this output; sky and disc are the frame's
-    auto entries = write_image_output(job.io, job.plan, frame, *rendered, o, job.displays,
-                                      job.options.output, job.fingerprint(frame, o), own);
+    StageTimes own;  // of this output
+    const std::string print = job.fingerprint(frame, o);
+    auto entries = std::holds_alternative<config::ProductOutput>(job.plan.job.outputs[o])
+                       ? write_product(source, o, print, own)
+                       : write_image_output(source, o, print, own);
     if (!entries) {
       task.error = entries.error();
       return;
@@ -165,15 +155,17 @@ std::string writer_name(const plan::Shard& shard) {
 bool all_recorded(const JobContext& job) {
   for (const plan::Frame& frame : job.plan.frames)
     for (size_t o = 0; o < job.plan.job.outputs.size(); ++o)
-      if (is_image(job.plan.job.outputs[o]) && !job.recorded(frame, o)) return false;
+      if (is_per_frame(job.plan.job.outputs[o]) && !job.recorded(frame, o)) return false;
   return true;
 }
 
 }  // namespace
 
 std::string JobContext::fingerprint(const plan::Frame& frame, size_t output) const {
-  return image_fingerprint(plan, frame, std::get<config::ImageOutput>(plan.job.outputs[output]),
-                           color_config);
+  const config::Output& o = plan.job.outputs[output];
+  if (const auto* product = std::get_if<config::ProductOutput>(&o))
+    return product_fingerprint(plan, frame, *product);
+  return image_fingerprint(plan, frame, std::get<config::ImageOutput>(o), color_config);
 }
 
 std::function<bool(double)> JobContext::report_paths() const {

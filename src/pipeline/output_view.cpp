@@ -1,0 +1,20 @@
+#include "pipeline/output_view.h"
+
+#include "image/orientation.h"
+
+namespace skylapse::pipeline {
+
+OutputView view_of_output(const plan::Plan& plan, const plan::Frame& frame,
+                          const config::ImageOutput& output) {
+  OutputView view{output.own_view ? *output.own_view : plan.job.cameras[frame.camera]};
+  image::Camera& camera = view.camera.camera;
+  if (!output.orientation || !image::stands_upright(camera.projection)) return view;
+  camera.camera_to_enu =
+      image::look_at(image::map_heading(camera.projection, *output.orientation), Angle{}, Angle{});
+  if (!view.camera.cube_faces_apart) return view;
+  const auto& faces = image::faces_in(image::convention_of(*output.orientation).cube_order);
+  for (size_t i = 0; i < faces.size(); ++i) view.faces[i] = int(faces[i]);
+  return view;
+}
+
+}  // namespace skylapse::pipeline
