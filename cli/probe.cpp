@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/csv.h"
@@ -85,11 +89,45 @@ Result<std::vector<Cell>> answered_row(const CsvTable& table, size_t row) {
   return cells;
 }
 
-ExitCode run_probe(const ProbeArguments& arguments, const ConsoleOptions& console) {
+/// The models that know an option.
+struct OptionOwners {
+  const char* option;
+  std::vector<std::string_view> models;
+};
+
+const std::vector<OptionOwners>& option_owners() {
+  static const std::vector<OptionOwners> owners{
+      {"--atmosphere", {"bruneton", "single-scattering", "reference"}},
+      {"--level", {"bruneton"}},
+      {"--precision", {"bruneton", "single-scattering"}},
+      {"--backend", {"bruneton", "single-scattering"}},
+      {"--samples", {"reference"}},
+      {"--relative-error", {"reference"}},
+      {"--seed", {"reference"}},
+  };
+  return owners;
+}
+
+/// The first option that was written for another model.
+std::optional<Error> option_without_effect(const CLI::App& command, const std::string& model) {
+  for (const OptionOwners& owner : option_owners())
+    if (command.count(owner.option) > 0 &&
+        std::ranges::find(owner.models, model) == owner.models.end())
+      return option_error(owner.option, fmt::format("has no effect on {}", model),
+                          fmt::format("it belongs to {}", fmt::join(owner.models, ", ")));
+  return {};
+}
+
+ExitCode run_probe(const CLI::App& command, const ProbeArguments& arguments,
+                   const ConsoleOptions& console) {
+  const bool known = is_atmosphere_model(arguments.model) || is_baseline_model(arguments.model) ||
+                     arguments.model == "hosek-wilkie";
+  if (known)
+    if (const auto error = option_without_effect(command, arguments.model)) return report(*error);
   if (is_atmosphere_model(arguments.model)) return run_atmosphere_probe(arguments, console);
   if (is_baseline_model(arguments.model))
     return run_baseline_probe(arguments.model, arguments.batch, console);
-  if (arguments.model != "hosek-wilkie")
+  if (!known)
     return report(option_error("--model", fmt::format("'{}' is unknown", arguments.model),
                                "allowed: preetham, cie, hosek-wilkie, bruneton, single-scattering, "
                                "reference"));
@@ -138,8 +176,10 @@ void add_probe_command(CLI::App& app, Session& session) {
   command->add_option("--relative-error", arguments->relative_error,
                       "Paths of reference until the standard error is this share of the radiance");
   command->add_option("--seed", arguments->seed, "Of reference (1)");
-  command->callback([&session, arguments] {
-    session.action = [&session, arguments] { return run_probe(*arguments, session.console); };
+  command->callback([&session, arguments, command] {
+    session.action = [&session, arguments, command] {
+      return run_probe(*command, *arguments, session.console);
+    };
   });
 }
 

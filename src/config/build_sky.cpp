@@ -122,6 +122,12 @@ void refuse_list_beside_a_promise(const Section& section, const Sky& sky,
 void read_slice(const Section& section, const ReadContext& context, Sky& sky) {
   const auto size = section.get<PixelSize>("slice");
   if (!size) return;
+  if (size->height == 0) {
+    context.errors.add(section.place_of("slice"),
+                       fmt::format("{} names one number", section.path_of("slice")),
+                       "write azimuths x zeniths, as in 64x128");
+    return;
+  }
   if (size->width < 4 || size->width > 2048 || size->height < 8 || size->height > 4096 ||
       size->height % 2 != 0) {
     context.errors.add(section.place_of("slice"),

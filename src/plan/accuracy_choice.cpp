@@ -19,9 +19,14 @@ using config::SkyModel;
 /// An error that is smaller by less than this is not a better one.
 constexpr double kBetter = 0.9;
 
-std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+/// Two digits, never as a power of ten.
+std::string percent(double share) {
+  return 100 * share < 9.95 ? fmt::format("{:.2g} %", 100 * share)
+                            : fmt::format("{:.0f} %", 100 * share);
+}
 
 std::string seconds_text(double s) {
+  if (s < 0.01) return fmt::format("{:.2g} ms", 1000 * s);
   if (s < 1) return fmt::format("{:.0f} ms", 1000 * s);
   if (s < 120) return fmt::format("{:.1f} s", s);
   if (s < 7200) return fmt::format("{:.0f} min", s / 60);
@@ -175,8 +180,10 @@ std::string promise_text(const Promise& promise) {
   if (!promise.worst_picture.empty() && promise.taken.error > 0)
     text += "               greatest in " + promise.worst_picture + "\n";
   text += "  next better  " +
-          (promise.next_better ? outlook(*promise.next_better)
-                               : std::string("the reference only, in any time")) +
+          (promise.next_better
+               ? outlook(*promise.next_better)
+               : std::string(
+                     "none; model: reference knows no bound but its noise, nor one on its time")) +
           "\n";
   return text;
 }
