@@ -119,6 +119,9 @@ std::vector<Camera> cubes(const MadeUpSky&) {
   camera.cube_layout = image::CubeLayout::cross;
   camera.width = 160, camera.height = 120;
   all.push_back(camera);
+  camera.cube_layout = image::CubeLayout::vertical_cross;
+  camera.width = 120, camera.height = 160;
+  all.push_back(camera);
   return all;
 }
 
@@ -133,6 +136,11 @@ std::vector<Camera> perspectives(const MadeUpSky& sky) {
           camera_of(Projection::perspective, 80, 80, 4, azimuth + 180, horizon + 1, 20),
           camera_of(Projection::perspective, 80, 80, 0.2, azimuth + 30, horizon + 0.05),
           camera_of(Projection::perspective, 80, 80, 0.02, azimuth, horizon)};
+}
+
+std::vector<Camera> octahedral_maps(const MadeUpSky&) {
+  return {camera_of(Projection::octahedral, 150, 150, 0, 0, 0),
+          camera_of(Projection::octahedral, 113, 113, 0, 70, 0)};
 }
 
 template <Projection projection, int full_angle>
@@ -168,6 +176,8 @@ constexpr ProjectionCase kProjections[] = {
     {"Equidistant", fisheyes<Projection::fisheye_equidistant, 360>},
     {"Equisolid", fisheyes<Projection::fisheye_equisolid, 360>},
     {"Stereographic", fisheyes<Projection::fisheye_stereographic, 300>},
+    {"MirrorBall", fisheyes<Projection::mirror_ball, 360>},
+    {"Octahedral", octahedral_maps},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, SliceImage, testing::ValuesIn(kProjections),

@@ -27,7 +27,9 @@ std::vector<Camera> cameras() {
           {fisheye_equisolid, 50, 50, 220 * deg, strip, zenith},
           {fisheye_stereographic, 50, 50, 190 * deg, strip, level},
           {cube, 16, 96, {}, strip, image::look_at({}, {}, {})},
-          {cube, 64, 48, {}, CubeLayout::cross, image::look_at({}, {}, {})}};
+          {cube, 64, 48, {}, CubeLayout::cross, image::look_at({}, {}, {})},
+          {octahedral, 48, 48, {}, strip, image::look_at(25 * deg, {}, {})},
+          {mirror_ball, 50, 50, {}, strip, level}};
 }
 
 Sky sky_of(Fit fit, double turbidity, double elevation) {

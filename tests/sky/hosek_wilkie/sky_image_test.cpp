@@ -127,6 +127,10 @@ std::vector<Camera> cubes(const Scene&) {
   camera.width = 160;
   camera.height = 120;
   all.push_back(camera);
+  camera.cube_layout = image::CubeLayout::vertical_cross;
+  camera.width = 120;
+  camera.height = 160;
+  all.push_back(camera);
   return all;
 }
 
@@ -139,6 +143,10 @@ std::vector<Camera> perspectives(const Scene& s) {
           camera_of(Projection::perspective, 80, 80, 4, azimuth, elevation),
           camera_of(Projection::perspective, 80, 80, 4, azimuth + 180, 1, 20),
           camera_of(Projection::perspective, 80, 80, 0.5, azimuth + 30, 0.1)};
+}
+
+std::vector<Camera> octahedral_maps(const Scene&) {
+  return {camera_of(Projection::octahedral, 113, 113, 0, 70, 0)};
 }
 
 template <Projection projection, int full_angle>
@@ -182,6 +190,7 @@ constexpr ProjectionCase kProjections[] = {
     {"Equidistant", fisheyes<Projection::fisheye_equidistant, 360>},
     {"Equisolid", fisheyes<Projection::fisheye_equisolid, 360>},
     {"Stereographic", fisheyes<Projection::fisheye_stereographic, 300>},
+    {"Octahedral", octahedral_maps},
 };
 
 std::string case_name(const testing::TestParamInfo<std::tuple<Output, ProjectionCase>>& info) {
