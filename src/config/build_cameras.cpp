@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 
@@ -18,8 +20,6 @@ bool is_fisheye(Projection p) {
   return p == Projection::fisheye_equidistant || p == Projection::fisheye_equisolid ||
          p == Projection::fisheye_stereographic;
 }
-bool is_whole_sphere(Projection p) { return p == Projection::lat_long || p == Projection::cube; }
-
 struct View {
   Angle azimuth, elevation, roll;
 };
@@ -37,14 +37,16 @@ View view_of_word(const std::string& word) {
   return {*value_of(kCompassWords, word) * deg, 0 * deg, 0 * deg};
 }
 
-View read_view(const Section& camera, Projection projection, const ReadContext& context) {
+/// `look_at`; `absent` if it is not written.
+View read_view(const Section& camera, Projection projection, const View& absent,
+               const ReadContext& context) {
   const auto refuse_tilt = [&](const Place& place) {
     context.errors.add(place, "images of the whole sphere stand upright",
                        "their look_at takes the azimuth of the image centre alone");
   };
   if (const auto word = camera.get<std::string>("look_at")) {
     const View view = view_of_word(*word);
-    if (is_whole_sphere(projection) && view.elevation != 0 * deg)
+    if (image::stands_upright(projection) && view.elevation != 0 * deg)
       refuse_tilt(camera.place_of("look_at"));
     return view;
   }
@@ -53,9 +55,9 @@ View read_view(const Section& camera, Projection projection, const ReadContext& 
     if (projection == Projection::perspective && !camera.has("look_at"))
       context.errors.add(camera.place, fmt::format("{} is missing", camera.path_of("look_at")),
                          "add \"look_at: {azimuth: 270 deg, elevation: 15 deg}\"");
-    return default_view(projection);
+    return absent;
   }
-  if (is_whole_sphere(projection))
+  if (image::stands_upright(projection))
     for (const std::string_view key : {"elevation", "roll"})
       if (section->get<double>(key).value_or(0) != 0) refuse_tilt(section->place_of(key));
   return {section->get<double>("azimuth").value_or(0) * rad,
@@ -64,10 +66,9 @@ View read_view(const Section& camera, Projection projection, const ReadContext& 
 }
 
 void read_field_of_view(const Section& section, image::Camera& camera, const ReadContext& context) {
-  camera.field_of_view = is_fisheye(camera.projection) ? 180 * deg : 90 * deg;
   const auto fov = section.get<double>("fov");
   if (!fov) return;
-  if (is_whole_sphere(camera.projection)) {
+  if (image::sees_whole_sphere(camera.projection)) {
     context.errors.add(section.field("fov")->key_place,
                        fmt::format("{} has no meaning here", section.path_of("fov")),
                        "images of the whole sphere have no field of view");
@@ -101,13 +102,21 @@ std::pair<int, int> faces_across(image::CubeLayout layout) {
       return {1, 6};
     case image::CubeLayout::cross:
       return {4, 3};
+    case image::CubeLayout::vertical_cross:
+      return {3, 4};
   }
   return {1, 1};
 }
 
-void read_size(const Section& section, image::Camera& camera, const ReadContext& context) {
-  const auto written = section.get<PixelSize>("size");
-  const PixelSize size = written.value_or(default_size(camera.projection));
+/// One number: the side of a square, or the width of a lat-long map.
+int height_of(Projection projection, int width) {
+  if (projection == Projection::perspective) return 0;
+  return projection == Projection::lat_long ? (width + 1) / 2 : width;
+}
+
+void read_size(const Section& section, PixelSize absent, image::Camera& camera,
+               const ReadContext& context) {
+  const PixelSize size = section.get<PixelSize>("size").value_or(absent);
   const Place place = section.place_of("size");
   const auto refuse = [&](std::string message, std::string hint) {
     context.errors.add(place, fmt::format("{}: {}", section.path_of("size"), message), hint);
@@ -127,8 +136,11 @@ void read_size(const Section& section, image::Camera& camera, const ReadContext&
       return;
     }
   } else if (size.height == 0) {
-    refuse("the height is missing", fmt::format("such as {}x{}", size.width, size.width));
-    return;
+    height = height_of(camera.projection, size.width);
+    if (height == 0) {
+      refuse("the height is missing", fmt::format("such as {}x{}", size.width, size.width));
+      return;
+    }
   }
   if (width * height > kMostPixels) {
     refuse(fmt::format("{}x{} is more than {} pixels", width, height, kMostPixels),
@@ -153,6 +165,31 @@ void read_layout(const Section& section, CameraConfig& config, const ReadContext
   config.cube_faces_apart = choice.faces_apart;
 }
 
+/// Size, projection and axes belong together.
+void check_camera(const Section& section, const CameraConfig& config, size_t errors_before,
+                  const ReadContext& context) {
+  const bool complete = context.errors.count() == errors_before && config.camera.width > 0;
+  if (!complete) return;
+  if (const auto problem = image::camera_problem(config.camera))
+    context.errors.add(section.place, *problem);
+}
+
+glm::dmat3 axes_of(const View& view) {
+  return image::look_at(view.azimuth, view.elevation, view.roll);
+}
+
+/// A view whose projection is known, with nothing of another one. `absent`: where it looks if no
+/// key says so.
+void read_fresh_view(const Section& section, const View& absent, CameraConfig& config,
+                     const ReadContext& context) {
+  image::Camera& camera = config.camera;
+  camera.camera_to_enu = axes_of(read_view(section, camera.projection, absent, context));
+  camera.field_of_view = is_fisheye(camera.projection) ? 180 * deg : 90 * deg;
+  read_field_of_view(section, camera, context);
+  read_layout(section, config, context);
+  read_size(section, default_size(camera.projection), camera, context);
+}
+
 CameraConfig build_camera(const Section& section, const std::string& default_name,
                           const ReadContext& context) {
   CameraConfig config;
@@ -167,16 +204,64 @@ CameraConfig build_camera(const Section& section, const std::string& default_nam
   if (section.has("projection") && !projection) return config;  // the rest depends on it
   if (projection) config.camera.projection = *value_of(kProjectionWords, *projection);
   const size_t errors_before = context.errors.count();
-  const View view = read_view(section, config.camera.projection, context);
-  config.camera.camera_to_enu = image::look_at(view.azimuth, view.elevation, view.roll);
-  read_field_of_view(section, config.camera, context);
-  read_layout(section, config, context);
-  read_size(section, config.camera, context);
-  const bool complete = context.errors.count() == errors_before && config.camera.width > 0;
-  if (!complete) return config;
-  if (const auto problem = image::camera_problem(config.camera))
-    context.errors.add(section.place, *problem);
+  read_fresh_view(section, default_view(config.camera.projection), config, context);
+  check_camera(section, config, errors_before, context);
   return config;
+}
+
+/// Where the job's maps and cubes are centred, if they agree.
+std::optional<View> common_heading(const std::vector<CameraConfig>& cameras) {
+  std::optional<View> common;
+  for (const CameraConfig& config : cameras) {
+    if (!image::stands_upright(config.camera.projection)) continue;
+    const Angle azimuth =
+        skylapse::azimuth(Direction<Enu>::from_vector(config.camera.camera_to_enu[2]));
+    if (common && common->azimuth != azimuth) return std::nullopt;
+    common = View{azimuth, 0 * deg, 0 * deg};
+  }
+  return common ? common : View{0 * deg, 0 * deg, 0 * deg};
+}
+
+/// A map or cube without look_at and orientation is centred as the job's others are.
+View view_of_map(const Section& section, const std::vector<CameraConfig>& cameras,
+                 const ReadContext& context) {
+  const auto heading = common_heading(cameras);
+  const bool needs_it = !section.has("look_at") && !section.has("orientation");
+  if (!heading && needs_it)
+    context.errors.add(section.place_of("projection"),
+                       "the job's maps and cubes are centred on different directions",
+                       "add look_at or orientation to this output");
+  return heading && needs_it ? *heading : default_view(Projection::lat_long);
+}
+
+/// The job's camera, with what the output says otherwise.
+void change_view(const Section& section, CameraConfig& config, const ReadContext& context) {
+  image::Camera& camera = config.camera;
+  if (section.has("orientation"))
+    camera.camera_to_enu = axes_of(default_view(camera.projection));
+  else if (section.has("look_at"))
+    camera.camera_to_enu = axes_of(read_view(section, camera.projection, View{}, context));
+  read_field_of_view(section, camera, context);
+  const auto [across, down] =
+      camera.projection == Projection::cube ? faces_across(camera.cube_layout) : std::pair{1, 1};
+  const PixelSize size{camera.width / across,
+                       camera.projection == Projection::cube ? 0 : camera.height / down};
+  read_layout(section, config, context);
+  read_size(section, size, camera, context);
+}
+
+bool check_orientation(const Section& section, const CameraConfig& config,
+                       const ReadContext& context) {
+  if (!section.has("orientation")) return true;
+  const auto refuse = [&](std::string hint) {
+    context.errors.add(section.field("orientation")->key_place,
+                       fmt::format("{} has no meaning here", section.path_of("orientation")),
+                       std::move(hint));
+    return false;
+  };
+  if (section.has("look_at")) return refuse("look_at says where the centre is");
+  if (image::stands_upright(config.camera.projection)) return true;
+  return refuse("it belongs to lat-long maps and cubes");
 }
 
 }  // namespace
@@ -198,6 +283,52 @@ std::vector<CameraConfig> build_cameras(const Section& root, const ReadContext& 
           fmt::format("the first is on line {}; names must differ", first->second));
   }
   return cameras;
+}
+
+std::optional<CameraConfig> build_own_view(const Section& section,
+                                           const std::vector<CameraConfig>& cameras,
+                                           const ReadContext& context) {
+  constexpr std::array<std::string_view, 6> kKeys{"projection", "size",   "fov",
+                                                  "look_at",    "layout", "orientation"};
+  const auto first = std::find_if(kKeys.begin(), kKeys.end(),
+                                  [&](std::string_view key) { return section.has(key); });
+  if (first == kKeys.end() || cameras.empty()) return std::nullopt;
+  const auto projection = section.get<std::string>("projection");
+  if (section.has("projection") && !projection) return std::nullopt;  // reported
+  const size_t errors_before = context.errors.count();
+  CameraConfig config = cameras.front();
+  if (projection) {
+    config = CameraConfig{};
+    config.name = "view";
+    config.camera.projection = *value_of(kProjectionWords, *projection);
+    const View absent = image::stands_upright(config.camera.projection)
+                            ? view_of_map(section, cameras, context)
+                            : default_view(config.camera.projection);
+    read_fresh_view(section, absent, config, context);
+  } else if (cameras.size() > 1) {
+    context.errors.add(section.field(*first)->key_place,
+                       fmt::format("{} does not say of which camera", section.path_of(*first)),
+                       "add projection: the job has several cameras");
+    return std::nullopt;
+  } else {
+    change_view(section, config, context);
+  }
+  config.span = context.sources.span(section.place);
+  check_orientation(section, config, context);
+  check_camera(section, config, errors_before, context);
+  return config;
+}
+
+CameraConfig build_product_view(const Section& section, Projection projection, int size,
+                                const ReadContext& context) {
+  CameraConfig config;
+  config.name = "view";
+  config.span = context.sources.span(section.place);
+  config.camera.projection = projection;
+  const size_t errors_before = context.errors.count();
+  read_size(section, {size, 0}, config.camera, context);
+  check_camera(section, config, errors_before, context);
+  return config;
 }
 
 }  // namespace skylapse::config

@@ -18,6 +18,14 @@ int cie_type(const Section& root);
 Air build_air(const Section& root, const std::vector<Site>& sites, const ReadContext& context);
 Sky build_sky(const Section& root, const ReadContext& context);
 std::vector<CameraConfig> build_cameras(const Section& root, const ReadContext& context);
+/// The view that an image output has for itself; nothing if no key of a view is written, or if its
+/// projection is wrong.
+std::optional<CameraConfig> build_own_view(const Section& output,
+                                           const std::vector<CameraConfig>& cameras,
+                                           const ReadContext& context);
+/// The cube or lat-long map of a product, centred on north; `size` where none is written.
+CameraConfig build_product_view(const Section& output, image::Projection projection, int size,
+                                const ReadContext& context);
 color::ExposureSettings build_exposure(const Section& root, const ReadContext& context);
 ColorConfig build_color(const Section& root, const ReadContext& context);
 

@@ -5,6 +5,7 @@
 
 #include "config/build_job.h"
 #include "config/time_expression.h"
+#include "config/words.h"
 
 namespace skylapse::config {
 namespace {
@@ -98,10 +99,26 @@ void check_zones(const Section& section, const std::vector<Site>& sites, bool ha
     context.errors.add(section.place, fmt::format("the day has no time zone{}", who), hint);
 }
 
+SunElevations sun_elevations_of(const Section& section, const ReadContext& context) {
+  SunElevations sampling;
+  if (const auto word = section.get<std::string>("half"))
+    sampling.half = *value_of(kHalfWords, *word);
+  std::set<double> seen;
+  for (const Value& value : section.values("sun_elevations")) {
+    const double elevation = std::get<double>(value.data);
+    if (!seen.insert(elevation).second)
+      context.errors.add(value.place, fmt::format("{} lists the same elevation twice",
+                                                  section.path_of("sun_elevations")));
+    sampling.elevations.push_back(elevation * rad);
+  }
+  return sampling;
+}
+
 Sampling sampling_of(const Section& section, const ReadContext& context) {
   if (const auto step = section.get<double>("step")) return FixedStep{*step * second};
   if (const auto frames = section.get<long>("frames")) return FrameCount{*frames};
   if (const auto every = section.get<double>("every")) return ElevationStep{*every * rad};
+  if (section.has("sun_elevations")) return sun_elevations_of(section, context);
   return ExplicitTimes{times_of(section, "at", context)};
 }
 
@@ -124,12 +141,22 @@ void check_order(const Section& section, const TimePlan& plan, const ReadContext
 }
 
 void refuse_limits(const Section& section, const ReadContext& context) {
+  const bool at = section.has("at");
   for (const std::string_view key : {"from", "to"})
     if (section.has(key))
       context.errors.add(
           section.field(key)->key_place,
-          fmt::format("{} has no meaning beside {}", section.path_of(key), section.path_of("at")),
-          "`at` lists the times themselves");
+          fmt::format("{} has no meaning beside {}", section.path_of(key),
+                      section.path_of(at ? "at" : "sun_elevations")),
+          at ? "`at` lists the times themselves"
+             : "`sun_elevations` looks at whole days; `half` takes one half of them");
+}
+
+void check_half(const Section& section, const ReadContext& context) {
+  if (section.has("half") && !section.has("sun_elevations"))
+    context.errors.add(section.field("half")->key_place,
+                       fmt::format("{} has no meaning here", section.path_of("half")),
+                       "it belongs to sun_elevations");
 }
 
 }  // namespace
@@ -149,7 +176,9 @@ TimePlan build_time(const Section& root, const std::vector<Site>& sites,
   const bool has_limits = !section.has("at");
   check_days(section, context);
   check_zones(section, sites, has_limits, context);
-  if (!has_limits) return refuse_limits(section, context), plan;
+  check_half(section, context);
+  if (!has_limits || section.has("sun_elevations")) refuse_limits(section, context);
+  if (!has_limits) return plan;
   const auto from = times_of(section, "from", context), to = times_of(section, "to", context);
   const bool bad = (section.has("from") && from.empty()) || (section.has("to") && to.empty());
   if (bad) return plan;

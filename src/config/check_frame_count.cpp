@@ -34,6 +34,9 @@ double frames_per_day(const TimePlan& time) {
   if (const auto* list = std::get_if<ExplicitTimes>(&time.sampling))
     return double(list->times.size());
   if (const auto* count = std::get_if<FrameCount>(&time.sampling)) return double(count->count);
+  if (const auto* elevations = std::get_if<SunElevations>(&time.sampling))
+    return double(elevations->elevations.size()) *
+           (elevations->half == SunElevations::Half::both ? 2 : 1);
   const double span = longest_span_s(time);
   if (const auto* step = std::get_if<FixedStep>(&time.sampling))
     return std::floor(span / step->step.in(second)) + 1;
@@ -50,8 +53,10 @@ std::string_view sampling_key(const Sampling& sampling) {
       return "frames";
     case 2:
       return "every";
-    default:
+    case 3:
       return "at";
+    default:
+      return "sun_elevations";
   }
 }
 
@@ -63,6 +68,7 @@ constexpr double kMaxSearchedDays = 10'000;
 double searched_days(const TimePlan& time) {
   if (std::holds_alternative<ElevationStep>(time.sampling))
     return std::max(1.0, std::ceil(longest_span_s(time) / 86400));
+  if (std::holds_alternative<SunElevations>(time.sampling)) return 1;
   const auto anchored = [](const std::optional<TimeExpression>& t) { return t && t->anchor; };
   if (anchored(time.from) || anchored(time.to)) return 1;
   const auto* list = std::get_if<ExplicitTimes>(&time.sampling);

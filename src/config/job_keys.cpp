@@ -1,4 +1,4 @@
-// The top of the table of keys. A new key is a row here or in scene_keys and picture_keys, a field
+// The top of the table of keys. A new key is a row here or in one of the other *_keys, a field
 // in the struct that it fills, and a line in the build_ function of its section.
 #include "config/key_sections.h"
 
@@ -75,9 +75,12 @@ const SectionSpec& job_spec() {
               {.name = "outputs",
                .kind = K::section_list,
                .required = true,
-               .sections = {&image_spec(), &movie_spec()},
+               .sections = {&image_spec(), &movie_spec(), &specular_spec(), &irradiance_spec(),
+                            &harmonics_spec(), &sun_light_spec(), &dome_spec(), &gallery_spec(),
+                            &sheet_spec()},
                .example = "[{image: sky.####.png}]",
-               .doc = "What is written: a list of images and movies."},
+               .doc = "What is written: a list of images, of what renderers want beside them, of "
+                      "movies, and of what shows the whole job."},
               {.name = "allow_outside_paths",
                .kind = K::on_off,
                .default_text = "off",

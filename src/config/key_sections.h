@@ -13,5 +13,12 @@ const SectionSpec& exposure_spec();
 const SectionSpec& color_spec();
 const SectionSpec& image_spec();
 const SectionSpec& movie_spec();
+const SectionSpec& specular_spec();
+const SectionSpec& irradiance_spec();
+const SectionSpec& harmonics_spec();
+const SectionSpec& sun_light_spec();
+const SectionSpec& dome_spec();
+const SectionSpec& gallery_spec();
+const SectionSpec& sheet_spec();
 
 }  // namespace skylapse::config

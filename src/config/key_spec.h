@@ -26,7 +26,7 @@ enum class ValueKind {
   view_direction,  // {azimuth, elevation, roll}, a compass point, zenith or nadir
   albedo,          // 0..1, or the name of a measured ground
   section,         // a map with the keys of sections[0]
-  section_list,    // a list of maps; the one whose first key is present says which section it is
+  section_list,    // a list of maps; the section whose first key is present is meant
 };
 
 struct SectionSpec;

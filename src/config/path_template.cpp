@@ -34,8 +34,9 @@ std::optional<Problem> token_problem(std::string_view path, size_t open) {
 }  // namespace
 
 const std::vector<std::string>& path_token_names() {
-  static const std::vector<std::string> names{"site",      "date",   "time", "camera",
-                                              "turbidity", "albedo", "face", "sun_elevation"};
+  static const std::vector<std::string> names{"site",          "date",   "time", "camera",
+                                              "turbidity",     "albedo", "face", "level",
+                                              "sun_elevation", "half",   "size"};
   return names;
 }
 
@@ -64,6 +65,8 @@ std::optional<Problem> path_template_problem(std::string_view path) {
   for (size_t i = 0; i < path.size(); ++i) {
     const auto c = static_cast<unsigned char>(path[i]);
     if (c < 0x20 || c == 0x7F) return Problem{"the name holds a control character", {}, i, 1};
+    if (c == ' ' && path[0] != '/')
+      return Problem{"the name holds a space", "use - or _: a space splits names in scripts", i, 1};
     if (c == '\\') return Problem{"the name holds a backslash", "folders are divided by /", i, 1};
     if (c == '/') name_begin = i + 1;
     if (i >= name_begin + kLongestName)

@@ -1,4 +1,4 @@
-// Keys of camera, exposure, colour and outputs. The rows are explained in key_spec.h.
+// Keys of camera, exposure and colour. The rows are explained in key_spec.h.
 #include "config/key_sections.h"
 #include "config/words.h"
 
@@ -78,7 +78,8 @@ const SectionSpec& camera_spec() {
           {.name = "size",
            .kind = K::image_size,
            .example = "1920x1080",
-           .doc = "Width and height in pixels; for a cube the side of a face. Default 1920x1080 "
+           .doc = "Width and height in pixels; one number is the side of a square or of a cube's "
+                  "face, and the width of a lat-long map twice as wide as high. Default 1920x1080 "
                   "(perspective), 1024x1024 (fisheye), 2048x1024 (lat-long), 512 (cube)."},
           {.name = "layout",
            .kind = K::word,
@@ -145,102 +146,6 @@ const SectionSpec& color_spec() {
            .kind = K::file,
            .example = "studio.ocio",
            .doc = "OpenColorIO config. Default: $OCIO, else a built-in ACES config."},
-      }};
-  return spec;
-}
-
-const SectionSpec& image_spec() {
-  static const SectionSpec spec{
-      .name = "image output",
-      .doc = "One image file for each frame.",
-      .keys = {
-          {.name = "image",
-           .kind = K::output_path,
-           .required = true,
-           .example = "sky.####.exr",
-           .doc = "File name, relative to the output folder. #### is the frame number; tokens: "
-                  "{site} {date} {time} {camera} {turbidity} {albedo} {face} {sun_elevation}. "
-                  "The format follows from the ending: exr, hdr, png, jpg, tif."},
-          {.name = "type",
-           .kind = K::word,
-           .words = words_of(kSampleTypeWords),
-           .example = "half",
-           .doc = "Numbers in the file. Default float (exr, hdr), u8 (png, jpg), u16 (tif)."},
-          {.name = "view",
-           .kind = K::text,
-           .example = "ACES SDR",
-           .doc = "View of the OpenColorIO display: makes the image display-referred. png, jpg and "
-                  "integer tif always are, by the default view; others are scene-linear."},
-          {.name = "display",
-           .kind = K::text,
-           .example = "sRGB",
-           .doc = "OpenColorIO display. Default: that of the OpenColorIO config."},
-          {.name = "content",
-           .kind = K::word,
-           .words = words_of(kImageContentWords),
-           .default_text = "radiance",
-           .example = "standard-error",
-           .doc = "What the values are: `standard-error` is that of each value of the picture "
-                  "without the sun's disc, which the model `reference` knows."},
-          {.name = "sun",
-           .kind = K::word,
-           .words = words_of(kSunPolicyWords),
-           .default_text = "clip",
-           .example = "split",
-           .doc = "What a half exr does with the sun's disc, which is brighter than half numbers "
-                  "reach: limit it, scale the image, leave the disc out and record it, or refuse."},
-          {.name = "compression",
-           .kind = K::word,
-           .words = {"none", "zip", "zips", "piz", "dwaa"},
-           .default_text = "zip",
-           .example = "piz",
-           .doc = "Compression of exr; tif takes none or zip."},
-          {.name = "quality",
-           .kind = K::integer,
-           .min = "1",
-           .max = "100",
-           .default_text = "92",
-           .example = "95",
-           .doc = "Quality of jpg."},
-      }};
-  return spec;
-}
-
-const SectionSpec& movie_spec() {
-  static const SectionSpec spec{
-      .name = "movie output",
-      .doc = "A movie of the frames in order, made by ffmpeg.",
-      .keys = {
-          {.name = "movie",
-           .kind = K::output_path,
-           .required = true,
-           .example = "day.mp4",
-           .doc = "File name, relative to the output folder, ending in mp4, mkv, mov or webm. "
-                  "Tokens: {site} {date} {camera} {turbidity} {albedo}; several locations, "
-                  "cameras or airs need theirs."},
-          {.name = "fps",
-           .kind = K::quantity,
-           .dimension = D::frame_rate,
-           .min = "0.1 fps",
-           .max = "240 fps",
-           .default_text = "30 fps",
-           .example = "24 fps",
-           .doc = "Frames per second."},
-          {.name = "crf",
-           .kind = K::integer,
-           .min = "0",
-           .max = "51",
-           .default_text = "18",
-           .example = "23",
-           .doc = "Constant rate factor: lower is better and larger."},
-          {.name = "view",
-           .kind = K::text,
-           .example = "ACES SDR",
-           .doc = "View of the OpenColorIO display. Default: its default view."},
-          {.name = "display",
-           .kind = K::text,
-           .example = "sRGB",
-           .doc = "OpenColorIO display. Default: that of the OpenColorIO config."},
       }};
   return spec;
 }

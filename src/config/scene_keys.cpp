@@ -1,5 +1,6 @@
 // Keys of place and time. The rows are explained in key_spec.h.
 #include "config/key_sections.h"
+#include "config/words.h"
 
 namespace skylapse::config {
 namespace {
@@ -140,6 +141,24 @@ const SectionSpec& time_spec() {
                .list = true,
                .example = "[sunrise, solar_noon, 18:30]",
                .doc = "The times themselves."},
+              {.name = "sun_elevations",
+               .kind = K::quantity,
+               .dimension = D::angle,
+               .min = "-90 deg",
+               .max = "90 deg",
+               .list = true,
+               .example = "[-4 deg, 0 deg, 5 deg, 30 deg]",
+               .doc = "A frame whenever the true elevation of the sun's centre is one of these, in "
+                      "the order written. Days on which the sun does not stand there are noted and "
+                      "passed over."},
+              {.name = "half",
+               .kind = K::word,
+               .words = words_of(kHalfWords),
+               .default_text = "both",
+               .example = "morning",
+               .doc =
+                   "For sun_elevations: while the sun rises, while it sinks, or both. Names hold "
+                   "it by the token {half}."},
               {.name = "dut1",
                .kind = K::quantity,
                .dimension = D::duration,
@@ -150,7 +169,8 @@ const SectionSpec& time_spec() {
                .doc = "UT1 - UTC, from IERS Bulletin A. Without it the sun is off by up to 13.5 "
                       "arcsec."},
           },
-      .alternatives = {{{"date", "dates"}}, {{"step", "frames", "every", "at"}, true}}};
+      .alternatives = {{{"date", "dates"}},
+                       {{"step", "frames", "every", "at", "sun_elevations"}, true}}};
   return spec;
 }
 

@@ -126,10 +126,19 @@ struct FieldReader {
            key.kind == ValueKind::dates || key.kind == ValueKind::view_direction;
   }
 
-  /// Of the sections that an item of a list may be, the one whose first key is there.
+  /// Of the sections that an item of a list may be, the one whose first key is there; of several,
+  /// the one that knows the first keys of the others too.
   const SectionSpec* choose_section(const Node& node, const std::string& item_path) {
+    if (key.sections.size() == 1) return key.sections[0];
+    std::vector<const SectionSpec*> there;
     for (const SectionSpec* spec : key.sections)
-      if (key.sections.size() == 1 || find_key(node, spec->keys[0].name) != nullptr) return spec;
+      if (find_key(node, spec->keys[0].name) != nullptr) there.push_back(spec);
+    for (const SectionSpec* spec : there)
+      if (std::all_of(there.begin(), there.end(), [&](const SectionSpec* other) {
+            return find_key_spec(*spec, other->keys[0].name) != nullptr;
+          }))
+        return spec;
+    if (!there.empty()) return there[0];
     std::vector<std::string> first_keys;
     for (const SectionSpec* spec : key.sections) first_keys.emplace_back(spec->keys[0].name);
     std::string hint =

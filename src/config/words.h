@@ -55,24 +55,27 @@ inline constexpr Words<astro::SunAlgorithm, 4> kSunAlgorithmWords{
      {"preetham-atan2", astro::SunAlgorithm::preetham_atan2},
      {"preetham", astro::SunAlgorithm::preetham}}};
 
-inline constexpr Words<image::Projection, 7> kProjectionWords{
+inline constexpr Words<image::Projection, 9> kProjectionWords{
     {{"perspective", image::Projection::perspective},
      {"fisheye", image::Projection::fisheye_equidistant},
      {"fisheye-equidistant", image::Projection::fisheye_equidistant},
      {"fisheye-equisolid", image::Projection::fisheye_equisolid},
      {"fisheye-stereographic", image::Projection::fisheye_stereographic},
      {"lat-long", image::Projection::lat_long},
-     {"cube", image::Projection::cube}}};
+     {"cube", image::Projection::cube},
+     {"octahedral", image::Projection::octahedral},
+     {"mirror-ball", image::Projection::mirror_ball}}};
 
 /// How a cube is laid out; `faces` writes six files.
 struct LayoutChoice {
   image::CubeLayout layout;
   bool faces_apart;
 };
-inline constexpr Words<LayoutChoice, 4> kLayoutWords{
+inline constexpr Words<LayoutChoice, 5> kLayoutWords{
     {{"vertical-strip", {image::CubeLayout::vertical_strip, false}},
      {"horizontal-strip", {image::CubeLayout::horizontal_strip, false}},
      {"cross", {image::CubeLayout::cross, false}},
+     {"vertical-cross", {image::CubeLayout::vertical_cross, false}},
      {"faces", {image::CubeLayout::vertical_strip, true}}}};
 
 inline constexpr Words<color::ExposureMode, 3> kExposureModeWords{
@@ -86,14 +89,33 @@ inline constexpr Words<output::SampleType, 4> kSampleTypeWords{
      {"half", output::SampleType::half_float},
      {"float", output::SampleType::float32}}};
 
-inline constexpr Words<ImageContent, 2> kImageContentWords{
-    {{"radiance", ImageContent::radiance}, {"standard-error", ImageContent::standard_error}}};
+inline constexpr Words<ImageContent, 3> kImageContentWords{
+    {{"radiance", ImageContent::radiance},
+     {"sky", ImageContent::sky},
+     {"standard-error", ImageContent::standard_error}}};
 
-inline constexpr Words<output::SunPolicy, 4> kSunPolicyWords{
-    {{"clip", output::SunPolicy::clip},
+inline constexpr Words<output::SunPolicy, 5> kSunPolicyWords{
+    {{"float", output::SunPolicy::float32},
+     {"clip", output::SunPolicy::clip},
      {"scale", output::SunPolicy::scale},
      {"split", output::SunPolicy::split},
      {"refuse", output::SunPolicy::refuse}}};
+
+inline constexpr Words<image::Orientation, 9> kOrientationWords{
+    {{"openexr", image::Orientation::openexr},
+     {"usd", image::Orientation::usd},
+     {"blender", image::Orientation::blender},
+     {"three", image::Orientation::three},
+     {"gltf", image::Orientation::gltf},
+     {"unreal", image::Orientation::unreal},
+     {"unity", image::Orientation::unity},
+     {"pbrt", image::Orientation::pbrt},
+     {"mitsuba", image::Orientation::mitsuba}}};
+
+inline constexpr Words<SunElevations::Half, 3> kHalfWords{
+    {{"morning", SunElevations::Half::morning},
+     {"afternoon", SunElevations::Half::afternoon},
+     {"both", SunElevations::Half::both}}};
 
 /// Compass points as azimuths in degrees.
 inline constexpr Words<double, 8> kCompassWords{{{"north", 0},

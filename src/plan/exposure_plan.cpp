@@ -26,7 +26,10 @@ Status plan_metered(Plan& plan) {
   while (begin < plan.frames.size()) {
     std::vector<color::MeteredFrame> meter;
     size_t end = begin;
-    for (; end < plan.frames.size() && plan.frames[end].sequence == plan.frames[begin].sequence;
+    // Skies by the sun's elevation are pictures of their own, not a film.
+    const bool alone = plan.frames[begin].asked_sun.has_value();
+    for (; end < plan.frames.size() && plan.frames[end].sequence == plan.frames[begin].sequence &&
+           !(alone && end > begin);
          ++end) {
       auto light = sky.read(plan.frames[end]);
       if (!light) return light.error();

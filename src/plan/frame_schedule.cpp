@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "config/time_expression.h"
+#include "plan/sun_elevation_times.h"
 
 namespace skylapse::plan {
 namespace {
@@ -179,6 +180,14 @@ Result<std::vector<Instant>> times_of_day(const config::TimePlan& plan, const ye
   return by_elevation(*span, std::get<config::ElevationStep>(plan.sampling).step, days);
 }
 
+std::string why_no_frame(const config::TimePlan& time) {
+  if (std::holds_alternative<config::ElevationStep>(time.sampling))
+    return "the sun passes no multiple of `every` in it: choose a smaller angle or a longer span";
+  if (std::holds_alternative<config::SunElevations>(time.sampling))
+    return "the sun passes none of these elevations on these days: choose others";
+  return "choose days that exist in the time zone";
+}
+
 struct JobDay {
   year_month_day date;
   const config::DateRange* range = nullptr;  // null: the expressions carry their own days
@@ -243,10 +252,13 @@ Result<Schedule, Diagnostics> make_schedule(const config::JobConfig& job) {
   Schedule schedule;
   Diagnostics errors;
   const auto days = days_of(job.time);
+  const auto* elevations = std::get_if<config::SunElevations>(&job.time.sampling);
   for (size_t s = 0; s < job.sites.size() && errors.empty(); ++s) {
     auto zone = zone_of(job, job.sites[s]);
     if (!zone) return Diagnostics{zone.error()};
     SiteDays site_days(job.sites[s], *zone);
+    std::optional<SunElevationTimes> asked_sun;
+    if (elevations != nullptr) asked_sun.emplace(*elevations, job.sites[s], site_days.ephemeris());
     for (const auto& [date, range] : days) {
       if (range != nullptr) {
         auto day = zone->civil_day(date);
@@ -262,29 +274,36 @@ Result<Schedule, Diagnostics> make_schedule(const config::JobConfig& job) {
           continue;
         }
       }
+      if (asked_sun) {
+        const auto day = zone->civil_day(date);
+        if (!day) return Diagnostics{day.error()};
+        for (const auto& [instant, sun] : asked_sun->of_day(date, *day))
+          schedule.times.push_back({int(s), date, instant, zone->to_local(instant), sun});
+        continue;
+      }
       auto times = times_of_day(job.time, date, site_days);
       if (!times) {
         errors.push_back(times.error());
         break;
       }
       for (const Instant& instant : *times)
-        schedule.times.push_back({int(s), date, instant, zone->to_local(instant)});
+        schedule.times.push_back({int(s), date, instant, zone->to_local(instant), {}});
       if (long(schedule.times.size()) > config::kMaxJobFrames)
         return Diagnostics{error_at(job.time.span, "this job has too many frames",
                                     fmt::format("allowed: at most {}", config::kMaxJobFrames))};
     }
+    if (asked_sun)
+      for (std::string& note : asked_sun->notes()) schedule.notes.push_back(std::move(note));
   }
   if (!errors.empty()) return errors;
-  std::stable_sort(schedule.times.begin(), schedule.times.end(),
-                   [](const ScheduledTime& a, const ScheduledTime& b) {
-                     return a.site != b.site ? a.site < b.site : a.instant < b.instant;
-                   });
+  if (elevations == nullptr)
+    std::stable_sort(schedule.times.begin(), schedule.times.end(),
+                     [](const ScheduledTime& a, const ScheduledTime& b) {
+                       return a.site != b.site ? a.site < b.site : a.instant < b.instant;
+                     });
   if (schedule.times.empty())
-    return Diagnostics{error_at(
-        job.time.span, "no frame falls into this time span",
-        std::holds_alternative<config::ElevationStep>(job.time.sampling)
-            ? "the sun passes no multiple of `every` in it: choose a smaller angle or a longer span"
-            : "choose days that exist in the time zone")};
+    return Diagnostics{
+        error_at(job.time.span, "no frame falls into this time span", why_no_frame(job.time))};
   return schedule;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Which moments a job renders: sites x days x times, before cameras and parameter lists multiply.
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,16 +11,26 @@
 
 namespace skylapse::plan {
 
+/// What made a time one of the job: an elevation in `time.sun_elevations`.
+struct AskedSun {
+  Angle elevation;  // true, of the sun's centre, as written
+  bool rising = false;
+};
+
 struct ScheduledTime {
   int site = 0;  // index into JobConfig::sites
   std::chrono::year_month_day date;
   astro::Instant instant;
   astro::LocalTime local;
+  std::optional<AskedSun> asked_sun{};  // where the config asks for elevations of the sun
 };
 
 struct Schedule {
-  std::vector<ScheduledTime> times;  // by site, then time
-  std::vector<std::string> notes;    // days that a zone skips, for the reader of the plan
+  /// By site, then time; times of the sun's elevation by site, day, and elevation as written.
+  std::vector<ScheduledTime> times;
+  /// Days that a zone skips, and elevations that the sun does not reach: for the reader of the
+  /// plan.
+  std::vector<std::string> notes;
 };
 
 /// Resolves every time expression of every site and day. Anchors use the true sun (ERFA), whatever

@@ -9,7 +9,7 @@
 namespace skylapse::plan {
 namespace {
 
-constexpr std::array<std::pair<const char*, std::string PathValues::*>, 8> kTokens{{
+constexpr std::array<std::pair<const char*, std::string PathValues::*>, 11> kTokens{{
     {"site", &PathValues::site},
     {"date", &PathValues::date},
     {"time", &PathValues::time},
@@ -17,7 +17,10 @@ constexpr std::array<std::pair<const char*, std::string PathValues::*>, 8> kToke
     {"turbidity", &PathValues::turbidity},
     {"albedo", &PathValues::albedo},
     {"sun_elevation", &PathValues::sun_elevation},
+    {"half", &PathValues::half},
+    {"size", &PathValues::size},
     {"face", &PathValues::face},
+    {"level", &PathValues::level},
 }};
 
 std::string file_safe(const std::string& value) {

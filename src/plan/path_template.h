@@ -1,12 +1,13 @@
 #pragma once
-// Output names: {site} {date} {time} {camera} {turbidity} {albedo} {sun_elevation} {face} ####.
+// Output names: {site} {date} {time} {camera} {turbidity} {albedo} {sun_elevation} {half} {size}
+// {face} {level} ####.
 #include <string>
 #include <vector>
 
 namespace skylapse::plan {
 
 struct PathValues {
-  std::string site, date, time, camera, turbidity, albedo, sun_elevation, face;
+  std::string site, date, time, camera, turbidity, albedo, sun_elevation, half, size, face, level;
 };
 
 /// Fills the tokens that have a value; the others and runs of '#' stay. Characters that make file

@@ -9,6 +9,7 @@
 #include "astro/refraction.h"
 #include "config/path_template.h"
 #include "config/time_expression.h"
+#include "image/camera/cube.h"
 #include "plan/accuracy_choice.h"
 #include "plan/baseline_of_frame.h"
 #include "plan/effect_planner.h"
@@ -38,7 +39,10 @@ PathValues path_values(const config::JobConfig& job, const Frame& frame) {
   values.camera = job.cameras[frame.camera].name;
   values.turbidity = fmt::format("{:.3g}", job.air.turbidity[frame.turbidity].value);
   values.albedo = job.air.ground_albedo[frame.albedo].value.name;
-  values.sun_elevation = fmt::format("{:+06.2f}", elevation(frame.sky.sun_apparent).in(deg));
+  const Angle sun =
+      frame.asked_sun ? frame.asked_sun->elevation : elevation(frame.sky.sun_apparent);
+  values.sun_elevation = fmt::format("{:+06.2f}", sun.in(deg) + 0.0);  // no -0
+  if (frame.asked_sun) values.half = frame.asked_sun->rising ? "morning" : "afternoon";
   return values;
 }
 
@@ -48,7 +52,9 @@ void number_paths(Plan& plan, size_t output) {
   const std::string& pattern = config::path_of(plan.job.outputs[output]).value;
   std::unordered_map<std::string, long> counters;
   for (Frame& frame : plan.frames) {
-    const std::string path = expand_tokens(pattern, path_values(plan.job, frame));
+    PathValues values = path_values(plan.job, frame);
+    values.size = size_label(view_of(plan, frame, output).camera);
+    const std::string path = expand_tokens(pattern, values);
     frame.paths[output] = expand_number(path, ++counters[path]);
   }
 }
@@ -72,10 +78,13 @@ std::optional<Error> find_collision(const Plan& plan) {
         if (fresh || (one_for_many && known->second.second == o)) continue;
         return Error{
             ErrorCode::invalid_input,
-            fmt::format("frames {} and {} would both write '{}'", known->second.first, frame.index,
-                        file),
+            known->second.first == frame.index
+                ? fmt::format("two outputs of frame {} would both write '{}'", frame.index, file)
+                : fmt::format("frames {} and {} would both write '{}'", known->second.first,
+                              frame.index, file),
             span,
-            "add ####, {site}, {date}, {time}, {camera}, {turbidity} or {albedo} to the name"};
+            "add ####, {site}, {date}, {time}, {camera}, {turbidity}, {albedo} or {size} to the "
+            "name"};
       }
     }
   return {};
@@ -171,6 +180,7 @@ Status add_frames(Plan& plan, const Schedule& schedule, const std::vector<astro:
             frame.date = schedule.times[i].date;
             frame.instant = schedule.times[i].instant;
             frame.local = schedule.times[i].local;
+            frame.asked_sun = schedule.times[i].asked_sun;
             frame.sky = skies[i];
             ask_model(plan, *at_horizon, frame);
             frame.paths.resize(job.outputs.size());
@@ -210,6 +220,21 @@ void note_low_sites(Plan& plan) {
                       site.name, site.position.height.in(metre)));
 }
 
+/// Whether files of an output hold pixels of its view.
+bool has_pixels(const config::Output& output) {
+  if (const auto* product = std::get_if<config::ProductOutput>(&output))
+    return product->view.has_value();
+  return std::holds_alternative<config::ImageOutput>(output);
+}
+
+/// Levels that an output writes to files of their own; 0: it has none.
+int levels_apart(const config::Output& output) {
+  const auto* product = std::get_if<config::ProductOutput>(&output);
+  const bool apart = product != nullptr && product->kind == config::ProductKind::specular &&
+                     product->format != "ktx2";
+  return apart ? product->levels : 0;
+}
+
 }  // namespace
 
 Result<Plan, Diagnostics> make_plan(config::JobConfig job, const EffectRules& rules) {
@@ -245,16 +270,40 @@ Result<Plan, Diagnostics> make_plan(config::JobConfig job, const EffectRules& ru
   return plan;
 }
 
+const config::CameraConfig& view_of(const Plan& plan, const Frame& frame, size_t output) {
+  const auto& frame_view = plan.job.cameras[frame.camera];
+  if (const auto* image = std::get_if<config::ImageOutput>(&plan.job.outputs[output]))
+    return image->own_view ? *image->own_view : frame_view;
+  if (const auto* product = std::get_if<config::ProductOutput>(&plan.job.outputs[output]))
+    return product->view ? *product->view : frame_view;
+  return frame_view;
+}
+
+std::string size_label(const image::Camera& camera) {
+  const int width = camera.width, height = camera.height;
+  if (camera.projection == image::Projection::cube)
+    return fmt::format("{}", image::cube_face_size(camera));
+  if (width == 2 * height && width % 1024 == 0) return fmt::format("{}k", width / 1024);
+  return width == height ? fmt::format("{}", width) : fmt::format("{}x{}", width, height);
+}
+
 std::vector<std::string> files_of(const Plan& plan, const Frame& frame, size_t output) {
-  const std::string& path = frame.paths[output];
-  if (!plan.job.cameras[frame.camera].cube_faces_apart ||
-      std::holds_alternative<config::MovieOutput>(plan.job.outputs[output]))
-    return {path};
+  const config::Output& what = plan.job.outputs[output];
+  const bool faces = has_pixels(what) && view_of(plan, frame, output).cube_faces_apart;
+  const int levels = levels_apart(what);
   std::vector<std::string> files;
-  for (const std::string& face : face_names()) {
+  for (int level = 0; level < std::max(1, levels); ++level) {
     PathValues values;
-    values.face = face;
-    files.push_back(expand_tokens(path, values));
+    if (levels > 0) values.level = fmt::format("{}", level);
+    const std::string path = expand_tokens(frame.paths[output], values);
+    if (!faces) {
+      files.push_back(path);
+      continue;
+    }
+    for (const std::string& face : face_names()) {
+      values.face = face;
+      files.push_back(expand_tokens(path, values));
+    }
   }
   return files;
 }

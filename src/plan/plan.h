@@ -24,6 +24,7 @@ struct Frame {
   std::chrono::year_month_day date;
   astro::Instant instant;
   astro::LocalTime local;
+  std::optional<AskedSun> asked_sun;  // what put the frame at this moment, if an elevation did
   astro::SkyState sky;
   SunForSky sun;         // what the sky model is asked for
   Length camera_height;  // above the ground of a computed atmosphere; else 0
@@ -31,7 +32,8 @@ struct Frame {
   double ev = 0;         // EV100
   /// Height of the sun's disc over its width, as refraction would have it; 1 without.
   double sun_flattening = 1;
-  std::vector<std::string> paths;  // one for each output of the job; {face} still to be filled
+  /// One for each output of the job; {face} and {level} still to be filled.
+  std::vector<std::string> paths;
 };
 
 struct Plan {
@@ -54,7 +56,15 @@ struct Plan {
 Result<Plan, Diagnostics> make_plan(config::JobConfig job,
                                     const EffectRules& rules = standard_rules());
 
-/// Paths of the files that one output of a frame writes: one, or six for separate cube faces.
+/// The view that an output of a frame has: its own, else that of the frame's camera.
+const config::CameraConfig& view_of(const Plan& plan, const Frame& frame, size_t output);
+
+/// "2k" for a map 2048 wide and twice as wide as high (any multiple of 1024), the side of a square
+/// or of a cube's face, else "1920x1080".
+std::string size_label(const image::Camera& camera);
+
+/// Paths of the files that one output of a frame writes: one, or six for separate cube faces; of
+/// levels in files of their own, all of the first, then all of the second, ...
 std::vector<std::string> files_of(const Plan& plan, const Frame& frame, size_t output);
 
 }  // namespace skylapse::plan

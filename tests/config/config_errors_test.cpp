@@ -57,8 +57,10 @@ TEST(ConfigErrors, KeysThatDoNotExist) {
   EXPECT_THAT(
       error_after("clouds: many\n"),
       StartsWith("5 [clouds] the key \"clouds\" is not known at the top level | known keys: "));
-  EXPECT_EQ(error_with(kImage, "{movi: a.mp4}"),
-            "4 [{] outputs.0 lacks one of image, movie | did you mean movie instead of movi?");
+  EXPECT_EQ(
+      error_with(kImage, "{movi: a.mp4}"),
+      "4 [{] outputs.0 lacks one of image, movie, specular, irradiance, harmonics, sun, dome, "
+      "gallery, sheet | did you mean movie instead of movi?");
 }
 
 TEST(ConfigErrors, KeysThatExcludeOrNeedEachOther) {
@@ -67,9 +69,10 @@ TEST(ConfigErrors, KeysThatExcludeOrNeedEachOther) {
       "5 [locations] location and locations exclude each other | use one of location, locations");
   EXPECT_EQ(error_with("step: 10 min", "step: 10 min, frames: 7"),
             "2 [frames] time.step and time.frames exclude each other | use one of step, frames, "
-            "every, at");
-  EXPECT_EQ(error_with(", step: 10 min", ""),
-            "2 [time] time lacks one of step, frames, every, at | add \"step: 2 min\"");
+            "every, at, sun_elevations");
+  EXPECT_EQ(
+      error_with(", step: 10 min", ""),
+      "2 [time] time lacks one of step, frames, every, at, sun_elevations | add \"step: 2 min\"");
   EXPECT_EQ(
       error_after("air: {turbidity: 3, visibility: 20 km}\n"),
       "5 [visibility] air.turbidity and air.visibility exclude each other | use one of turbidity, "
@@ -242,7 +245,7 @@ TEST(ConfigErrors, Outputs) {
   EXPECT_EQ(error_at("{image: sky.####.bmp}"),
             "4 [sky.####.bmp] outputs.0.image: no image format ends in .bmp | allowed: .exr, .hdr, "
             ".png, .jpg, "
-            ".jpeg, .tif, .tiff");
+            ".jpeg, .tif, .tiff, .ktx2");
   EXPECT_EQ(error_at("{image: sky.mp4}"),
             "4 [sky.mp4] outputs.0.image: no image format ends in .mp4 | movies are written as "
             "\"movie: ...\"");
@@ -266,8 +269,7 @@ TEST(ConfigErrors, Outputs) {
             "4 [half] outputs.0.type = half cannot be stored in png | allowed: u8, u16");
   EXPECT_EQ(
       error_at("{image: sky.####.png, sun: clip}"),
-      "4 [sun] outputs.0.sun has no meaning here | it belongs to scene-linear exr with \"type: "
-      "half\"");
+      "4 [sun] outputs.0.sun has no meaning here | it belongs to scene-linear exr, hdr and ktx2");
   EXPECT_EQ(
       error_at("{image: sky.####.png, compression: zip}"),
       "4 [compression] outputs.0.compression has no meaning here | it belongs to exr and tif");

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -29,7 +30,7 @@ void for_each_section(const SectionSpec& section, const auto& visit,
 void for_each_section(const auto& visit) {
   std::set<const SectionSpec*> seen;
   for_each_section(job_spec(), visit, seen);
-  EXPECT_EQ(seen.size(), 15u);
+  EXPECT_EQ(seen.size(), 22u);
 }
 
 TEST(KeyTable, EveryKeyIsExplainedAndNamedOnce) {
@@ -97,6 +98,12 @@ std::string summary(const JobConfig& job) {
                           image->quality, image->compression);
     if (const auto* movie = std::get_if<MovieOutput>(&output))
       text += fmt::format(" | {} {}", movie->frames_per_second, movie->crf);
+    if (const auto* product = std::get_if<ProductOutput>(&output))
+      text += fmt::format(" | {} {} {} {} {}", int(product->sample_type), product->levels,
+                          int(product->orientation), product->sun_disc,
+                          product->view ? product->view->camera.width : 0);
+    if (const auto* library = std::get_if<LibraryOutput>(&output))
+      text += fmt::format(" | {}", library->columns);
   }
   return text;
 }
@@ -104,19 +111,28 @@ std::string summary(const JobConfig& job) {
 TEST(KeyTable, WritingADefaultChangesNothing) {
   const std::string job_text =
       with(kSmallJob, "[{image: sky.####.png}]",
-           "[{image: sky.####.exr, type: half}, {image: sky.####.jpg}, {movie: day.mp4}]");
+           "[{image: sky.####.exr, type: half}, {image: sky.####.jpg}, {movie: day.mp4}, "
+           "{specular: s.####.ktx2}, {irradiance: i.####.exr}, {harmonics: h.####.json}, "
+           "{sun: sun.####.json}, {dome: d.####.usda, map: m.####.exr}, {sheet: s.png, image: "
+           "sky.####.jpg}, {image: m.####.exr, projection: lat-long}]");
+  const std::map<std::string, std::string> outputs{
+      {"movie output", "outputs.2."},      {"specular output", "outputs.3."},
+      {"irradiance output", "outputs.4."}, {"harmonics output", "outputs.5."},
+      {"sun output", "outputs.6."},        {"dome output", "outputs.7."},
+      {"sheet output", "outputs.8."}};
   size_t written = 0;
   for_each_section([&](const SectionSpec& section) {
     for (const KeySpec& key : section.keys) {
       const std::string name(key.name), spec(section.name);
       // Names have a numbered default, and these keys belong to other projections or modes.
       if (key.default_text.empty() || name == "name" || name == "layout" || name == "ev" ||
-          name == "rate_limit" || spec == "dates" || spec == "look_at")
+          name == "rate_limit" || name == "half" || spec == "dates" || spec == "look_at" ||
+          (name == "orientation" && spec == "sun output"))
         continue;
       const std::string path =
           spec.empty()             ? name
           : spec == "image output" ? (name == "quality" ? "outputs.1." : "outputs.0.") + name
-          : spec == "movie output" ? "outputs.2." + name
+          : outputs.contains(spec) ? outputs.at(spec) + name
           : spec == "aerosol" || spec == "stratosphere" ? "air." + spec + "." + name
                                                         : spec + "." + name;
       const auto plain = parse_job(job_text, "job.yaml");

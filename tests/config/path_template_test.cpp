@@ -6,9 +6,10 @@ namespace skylapse::config {
 namespace {
 
 TEST(PathTemplate, KnownTokensAndOneFrameNumberAreFine) {
-  for (const char* path : {"sky.####.png", "{site}/{date}_{time}.exr", "a#.png", "out/x.png",
-                           "{camera}-{turbidity}-{albedo}-{face}-{sun_elevation}.######.hdr",
-                           "./x.png", "a b.png", "čas.####.png"})
+  for (const char* path :
+       {"sky.####.png", "{site}/{date}_{time}.exr", "a#.png", "out/x.png",
+        "{camera}-{turbidity}-{albedo}-{face}-{sun_elevation}.######.hdr", "./x.png",
+        "/mnt/my disk/x.png", "čas.####.png", "{site}_{date}_{half}_{size}_{level}_{face}.ktx2"})
     EXPECT_FALSE(path_template_problem(path).has_value()) << path;
 }
 
@@ -28,7 +29,7 @@ TEST(PathTemplate, NamesThatCannotBeFilesAreRefused) {
         std::string("site}.png"), std::string("{}.png"), std::string("{{site}}.png"),
         std::string("a\nb.png"), std::string("a\\b.png"), std::string("a\0b.png", 7),
         std::string("#############.png"), long_name, "a/" + long_name, long_path,
-        std::string("{si/te}.png")})
+        std::string("{si/te}.png"), std::string("a b.png")})
     EXPECT_TRUE(path_template_problem(path).has_value()) << path;
 }
 

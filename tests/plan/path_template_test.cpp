@@ -33,7 +33,7 @@ TEST(PathTemplate, AValueThatLooksLikeATokenIsNotExpandedAgain) {
 }
 
 TEST(PathTemplate, EveryTokenThatAConfigMayUseIsFilled) {
-  const PathValues values{"s", "d", "t", "c", "2", "a", "+1", "px"};
+  const PathValues values{"s", "d", "t", "c", "2", "a", "+1", "morning", "2k", "px", "0"};
   for (const std::string& token : skylapse::config::path_token_names())
     EXPECT_EQ(expand_tokens(fmt::format("{{{}}}", token), values).find('{'), std::string::npos)
         << token;
