@@ -6,26 +6,21 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-// ThreadSanitizer does not see how the library, which is not instrumented, hands work over and
-// back: what was written before a loop is seen by its pieces, and what these write after it.
-#if defined(__SANITIZE_THREAD__)
-extern "C" void __tsan_acquire(void* address);
-extern "C" void __tsan_release(void* address);
-#endif
+#include "core/thread_order.h"
 
 namespace skylapse {
 namespace {
 
-void come_after([[maybe_unused]] void* moment) {
-#if defined(__SANITIZE_THREAD__)
-  __tsan_acquire(moment);
-#endif
-}
+/// One parallel loop: what was written before it is seen by its pieces, and what these write after.
+struct Loop {
+  const std::function<void(size_t, size_t)>& body;
+  Moment begun, ended;
+};
 
-void come_before([[maybe_unused]] void* moment) {
-#if defined(__SANITIZE_THREAD__)
-  __tsan_release(moment);
-#endif
+[[gnu::noinline]] void run_piece(Loop& loop, size_t begin, size_t end) {
+  loop.begun.passed();
+  loop.body(begin, end);
+  loop.ended.reached();
 }
 
 }  // namespace
@@ -40,17 +35,14 @@ void parallel_for_ranges(size_t count, size_t grain,
                          const std::function<void(size_t, size_t)>& body) {
   // Isolated: while this thread waits for its pieces it must not start on another frame, which
   // would hold two frames on one thread and count the one's time as the other's.
-  char begun = 0, ended = 0;  // their addresses stand for the two moments
-  come_before(&begun);
+  Loop loop{body, {}, {}};
+  loop.begun.reached();
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain > 0 ? grain : 1),
-                      [&](const auto& range) {
-                        come_after(&begun);
-                        body(range.begin(), range.end());
-                        come_before(&ended);
-                      });
+                      [&loop](const auto& range)
+                          SKYLAPSE_UNWATCHED { run_piece(loop, range.begin(), range.end()); });
   });
-  come_after(&ended);
+  loop.ended.passed();
 }
 
 ThreadLimit::ThreadLimit(int threads) {

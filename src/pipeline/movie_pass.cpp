@@ -1,13 +1,12 @@
 #include "pipeline/movie_pass.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_pipeline.h>
-
 #include <algorithm>
 #include <chrono>
 #include <map>
 
 #include "core/parallel.h"
+#include "core/pipeline.h"
 #include "core/sha256.h"
 #include "output/atomic_file.h"
 #include "output/movie_writer.h"
@@ -71,6 +70,11 @@ Picture make_picture(const JobContext& job, const Movie& movie, const plan::Fram
   return {display_picture(frame, *rendered, *job.displays.of(movie.output), times), {}};
 }
 
+struct FrameOfMovie {
+  long number = 0;
+  Picture picture;
+};
+
 Status encode_movie(const JobContext& job, const Movie& movie, RunSummary& summary) {
   const config::MovieOutput& settings = settings_of(job.plan, movie);
   const image::Camera& camera = job.plan.job.cameras[job.frame(movie.frames.front()).camera].camera;
@@ -84,31 +88,27 @@ Status encode_movie(const JobContext& job, const Movie& movie, RunSummary& summa
   size_t next = 0;
   long written = 0;
   const auto start = std::chrono::steady_clock::now();
-  tbb::parallel_pipeline(
-      size_t(frames_in_flight(job.plan, available_cores())),
-      tbb::make_filter<void, long>(tbb::filter_mode::serial_in_order,
-                                   [&](tbb::flow_control& control) -> long {
-                                     if (next == movie.frames.size() || failed || job.stopped()) {
-                                       control.stop();
-                                       return 0;
-                                     }
-                                     return movie.frames[next++];
-                                   }) &
-          tbb::make_filter<long, Picture>(
-              tbb::filter_mode::parallel,
-              [&](long number) { return make_picture(job, movie, job.frame(number), source); }) &
-          tbb::make_filter<Picture, void>(tbb::filter_mode::serial_in_order, [&](const Picture&
-                                                                                     picture) {
-            if (failed) return;
-            const Status added =
-                picture.error ? Status(*picture.error) : writer->add_frame(picture.rgb);
-            if (!added) error = added.error(), failed = true;
-            if (job.options.on_progress)
-              job.options.on_progress(
-                  {++written, long(movie.frames.size()), 0,
-                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-                   movie.path});
-          }));
+  const auto feed = [&]() -> std::optional<FrameOfMovie> {
+    if (next == movie.frames.size() || failed || job.stopped()) return {};
+    return FrameOfMovie{movie.frames[next++], {}};
+  };
+  const auto add = [&](FrameOfMovie& frame) {
+    if (failed) return;
+    const Picture& picture = frame.picture;
+    const Status added = picture.error ? Status(*picture.error) : writer->add_frame(picture.rgb);
+    if (!added) error = added.error(), failed = true;
+    if (job.options.on_progress)
+      job.options.on_progress(
+          {++written, long(movie.frames.size()), 0,
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+           movie.path});
+  };
+  run_pipeline<FrameOfMovie>(
+      size_t(frames_in_flight(job.plan, available_cores())), feed,
+      [&](FrameOfMovie& frame) {
+        frame.picture = make_picture(job, movie, job.frame(frame.number), source);
+      },
+      add, FinishOrder::as_made);
   if (error) return *error;
   if (job.stopped()) return interrupted();
   const Status finished = writer->finish();

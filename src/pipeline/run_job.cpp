@@ -1,13 +1,12 @@
 #include "pipeline/run_job.h"
 
-#include <tbb/parallel_pipeline.h>
-
 #include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <set>
 
 #include "core/parallel.h"
+#include "core/pipeline.h"
 #include "output/atomic_file.h"
 #include "pipeline/fingerprint.h"
 #include "pipeline/job_context.h"
@@ -113,26 +112,16 @@ std::optional<Error> render_all(const JobContext& job, RunSummary& summary,
   Collector collector(job, summary, start);
   const auto& frames = job.options.frames;
   size_t next = 0;
-  const auto feed = [&](tbb::flow_control& control) -> Task {
-    if (next == frames.size() || job.stopped() || collector.failed()) {
-      control.stop();
-      return {};
-    }
+  const auto feed = [&]() -> std::optional<Task> {
+    if (next == frames.size() || job.stopped() || collector.failed()) return {};
     Task task;
     task.number = frames[next++];
     return task;
   };
   const int threads = job.options.jobs > 0 ? job.options.jobs : available_cores();
-  tbb::parallel_pipeline(
-      size_t(frames_in_flight(job.plan, threads)),
-      tbb::make_filter<void, Task>(tbb::filter_mode::serial_in_order, feed) &
-          tbb::make_filter<Task, Task>(tbb::filter_mode::parallel,
-                                       [&](Task task) {
-                                         run_task(job, task);
-                                         return task;
-                                       }) &
-          tbb::make_filter<Task, void>(tbb::filter_mode::serial_out_of_order,
-                                       [&](const Task& task) { collector.take(task); }));
+  run_pipeline<Task>(
+      size_t(frames_in_flight(job.plan, threads)), feed, [&](Task& task) { run_task(job, task); },
+      [&](Task& task) { collector.take(task); }, FinishOrder::as_done);
   if (collector.error()) return collector.error();
   if (job.stopped()) return interrupted();
   return {};
