@@ -8,6 +8,7 @@
 #include "core/frames.h"
 #include "image/camera/camera.h"
 #include "image/frame_buffer.h"
+#include "image/lighting/point_light.h"
 
 namespace skylapse::sky {
 
@@ -49,6 +50,10 @@ struct DiscEnergy {
 /// Irradiance by the part of the disc above the horizon, by Gauss quadrature; nothing when no part
 /// is. Within 1e-6 for a radiance that is smooth over the disc, the horizon's cut included.
 DiscEnergy disc_energy(const SunDisc& disc);
+
+/// The nodes of that quadrature, 768 small lights: their sums are those of disc_energy. For
+/// integrals of the disc's light times something smooth over it. None if the disc has set.
+std::vector<image::PointLight> disc_points(const SunDisc& disc);
 
 /// Light of the disc in one pixel: radiance to add to what is there.
 struct PixelAddition {

@@ -58,15 +58,22 @@ double flattened_haversine(double sin_lambda, double psi, double flattening) {
   return 0.5 * sin_lambda * sin_lambda / (1 + cos_lambda) + cos_lambda * half * half;
 }
 
+/// A piece of the disc, met twice: on either side of its vertical plane.
+struct TwinPieces {
+  glm::dvec3 flux{0};  // of both
+  double sine = 0;     // of the elevation; 0 below the level
+  double out_of_plane = 0, in_plane_forward = 0, in_plane_up = 0;  // in the axes of the centre
+};
+
 /// Of a disc that is cut along elevation 0, or not at all.
-DiscEnergy energy_of_level_cut(const SunDisc& disc, bool cut) {
+template <class Visit>
+void visit_level_cut(const SunDisc& disc, bool cut, const Visit& visit) {
   static const GaussLegendre<32> outer;
   static const GaussLegendre<24> inner;
   const double s = sin(disc.radius);
   const double e = elevation(disc.centre).in(rad);
   const double k = disc.flattening, lowest = -e / k;  // psi / k at the horizon
-  DiscEnergy energy;
-  if (cut && lowest >= disc.radius.in(rad)) return energy;
+  if (cut && lowest >= disc.radius.in(rad)) return;
   const bool whole = !cut || lowest <= -disc.radius.in(rad);
   const double t0 = whole ? -kPi / 2 : std::asin(std::clamp(std::sin(lowest) / s, -1.0, 1.0));
   const double half_t = 0.5 * (kPi / 2 - t0), middle_t = 0.5 * (kPi / 2 + t0);
@@ -87,11 +94,10 @@ DiscEnergy energy_of_level_cut(const SunDisc& disc, bool cut) {
       const double cosine = std::hypot(sin_lambda, cos_lambda * std::cos(e + psi));
       const glm::dvec3 radiance =
           disc.radiance(atan2_angle(cut ? sine : signed_sine, cosine), std::cos(t) * std::cos(phi));
-      energy.normal_irradiance += domega * radiance;
-      energy.horizontal_irradiance += domega * sine * radiance;
+      visit(TwinPieces{domega * radiance, sine, sin_lambda, cos_lambda * std::cos(psi),
+                       cos_lambda * std::sin(psi)});
     }
   }
-  return energy;
 }
 
 struct Strip {
@@ -129,7 +135,8 @@ struct Strip {
 ///   sin^2(D / 2) = sin((R + x) / 2) sin((R - x) / 2) / (cos(alpha) cos(e)),   x = alpha - e
 /// (haversines), within which the azimuth is D sin(phi). A flattened disc reaches k R up and down,
 /// and its half-width is found by bisection.
-DiscEnergy energy_of_dipped_cut(const SunDisc& disc) {
+template <class Visit>
+void visit_dipped_cut(const SunDisc& disc, const Visit& visit) {
   static const GaussLegendre<32> outer;
   static const GaussLegendre<24> inner;
   const double r = disc.radius.in(rad), s = sin(disc.radius);
@@ -137,7 +144,6 @@ DiscEnergy energy_of_dipped_cut(const SunDisc& disc) {
   const double k = disc.flattening, reach = k * r;
   const double t0 = std::asin(std::clamp((horizon - e) / reach, -1.0, 1.0));
   const double half_t = 0.5 * (kPi / 2 - t0), middle_t = 0.5 * (kPi / 2 + t0);
-  DiscEnergy energy;
   for (size_t i = 0; i < outer.nodes.size(); ++i) {
     const double t = middle_t + half_t * outer.nodes[i];
     const Strip strip{e + reach * std::sin(t), e, k};
@@ -152,11 +158,27 @@ DiscEnergy energy_of_dipped_cut(const SunDisc& disc) {
       const double domega =
           2 * dalpha * std::cos(alpha) * 0.5 * kPi * inner.weights[j] * half_width * std::cos(phi);
       const glm::dvec3 radiance = disc.radiance(alpha * rad, limb);
-      energy.normal_irradiance += domega * radiance;
-      energy.horizontal_irradiance += domega * std::max(0.0, std::sin(alpha)) * radiance;
+      // Back into the axes of the centre, which stands at the elevation e.
+      const double ahead = std::cos(alpha) * std::cos(azimuth);
+      visit(TwinPieces{domega * radiance, std::max(0.0, std::sin(alpha)),
+                       std::cos(alpha) * std::sin(azimuth),
+                       ahead * std::cos(e) + std::sin(alpha) * std::sin(e),
+                       std::sin(alpha) * std::cos(e) - ahead * std::sin(e)});
     }
   }
-  return energy;
+}
+
+template <class Visit>
+void visit_disc(const SunDisc& disc, const Visit& visit) {
+  assert(disc.radius > Angle{} && disc.radius <= 10 * deg);
+  assert(disc.flattening > 0 && disc.flattening <= 1);
+  assert(disc.horizon <= Angle{} && disc.horizon > -90 * deg);
+  if (disc.horizon == Angle{}) return visit_level_cut(disc, true, visit);
+  const Angle over = elevation(disc.centre) - disc.horizon;
+  const Angle reach = disc.flattening * disc.radius;
+  if (over <= -reach) return;
+  if (over >= reach) return visit_level_cut(disc, false, visit);
+  visit_dipped_cut(disc, visit);
 }
 
 }  // namespace
@@ -182,15 +204,24 @@ double haversine_in_disc(const SunDisc& disc, const Direction<Enu>& direction) {
 }
 
 DiscEnergy disc_energy(const SunDisc& disc) {
-  assert(disc.radius > Angle{} && disc.radius <= 10 * deg);
-  assert(disc.flattening > 0 && disc.flattening <= 1);
-  assert(disc.horizon <= Angle{} && disc.horizon > -90 * deg);
-  if (disc.horizon == Angle{}) return energy_of_level_cut(disc, true);
-  const Angle over = elevation(disc.centre) - disc.horizon;
-  const Angle reach = disc.flattening * disc.radius;
-  if (over <= -reach) return {};
-  if (over >= reach) return energy_of_level_cut(disc, false);
-  return energy_of_dipped_cut(disc);
+  DiscEnergy energy;
+  visit_disc(disc, [&](const TwinPieces& p) {
+    energy.normal_irradiance += p.flux;
+    energy.horizontal_irradiance += p.sine * p.flux;
+  });
+  return energy;
+}
+
+std::vector<image::PointLight> disc_points(const SunDisc& disc) {
+  const glm::dvec3 c = disc.centre.vec(), up = up_at(disc.centre), side = glm::cross(c, up);
+  std::vector<image::PointLight> points;
+  visit_disc(disc, [&](const TwinPieces& p) {
+    const glm::dvec3 in_plane = p.in_plane_forward * c + p.in_plane_up * up;
+    for (const double sign : {-1.0, 1.0})
+      points.push_back(
+          {Direction<Enu>::from_vector(in_plane + sign * p.out_of_plane * side), 0.5 * p.flux});
+  });
+  return points;
 }
 
 }  // namespace skylapse::sky

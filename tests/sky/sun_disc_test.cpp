@@ -124,6 +124,36 @@ TEST(DiscEnergy, IsNothingBelowTheHorizon) {
   }
 }
 
+TEST(DiscPoints, HaveTheEnergyOfTheDiscAndLieOnIt) {
+  for (const double horizon : {0.0, -0.1})
+    for (const double flattening : {1.0, 0.85})
+      for (const double el : {-0.2, -0.05, 0.0, 0.15, 3.0, 60.0, 90.0}) {
+        SunDisc disc = test_sun(210 * deg, el * deg);
+        disc.horizon = horizon * deg;
+        disc.flattening = flattening;
+        const DiscEnergy energy = disc_energy(disc);
+        DiscEnergy sum;
+        glm::dvec3 middle{0};
+        for (const auto& [direction, irradiance] : disc_points(disc)) {
+          sum.normal_irradiance += irradiance;
+          sum.horizontal_irradiance += irradiance * std::max(0.0, direction.z());
+          middle += direction.vec() * irradiance.g;
+          ASSERT_LT(separation(direction, disc.centre), disc.radius + 1e-9 * rad);
+          ASSERT_LE(4 * haversine_in_disc(disc, direction), std::pow(disc.radius.in(rad), 2));
+          ASSERT_GT(elevation(direction), disc.horizon - 1e-9 * rad);
+        }
+        if (energy.normal_irradiance.g == 0) {
+          EXPECT_EQ(sum.normal_irradiance.g, 0);
+          continue;
+        }
+        EXPECT_LT(worst_relative(sum.normal_irradiance, energy.normal_irradiance), 1e-12) << el;
+        EXPECT_NEAR(sum.horizontal_irradiance.g, energy.horizontal_irradiance.g,
+                    1e-9 * energy.normal_irradiance.g);
+        if (el < 60) continue;  // lower, the air dims the lower limb
+        EXPECT_LT(separation(Direction<Enu>::from_vector(middle), disc.centre).in(arcsec), 5);
+      }
+}
+
 // Independent sum over a fine grid of elevation and azimuth.
 TEST(DiscEnergy, AgreesWithAGridWhereTheHorizonCutsTheDisc) {
   const double r = kTestRadius.in(rad);
