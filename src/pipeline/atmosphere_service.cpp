@@ -262,9 +262,9 @@ Result<FrameAtmosphere> AtmosphereService::of_frame(const plan::Frame& frame) {
   SliceContent content{.multiple_scattering = true,
                        .ground = effects.has(sky::Effect::ground),
                        .aerial_perspective = effects.has(sky::Effect::aerial_perspective)};
-  if (!effects.has(sky::Effect::unseen_sky))
-    content.window =
-        sky::bruneton::window_of(plan.job.cameras[frame.camera].camera, grid, frame.sun.direction);
+  const image::Camera* picture = plan.sights[frame.camera].only_picture();
+  if (!effects.has(sky::Effect::unseen_sky) && picture != nullptr)
+    content.window = sky::bruneton::window_of(*picture, grid, frame.sun.direction);
   if (content.window && content.window->empty()) {
     // Above the air and looking away from it: nothing shines but the sun, and none of the sky's
     // light falls on a level surface.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "plan/output_cost.h"
 #include "plan/picture_scenes.h"
 #include "plan/plan.h"
 #include "plan/rung_cost.h"
@@ -72,11 +73,10 @@ double reference_seconds(const PromiseInputs& in, const std::vector<Picture>& pi
                          double accuracy, const ErrorTable& table) {
   double seconds = 0;
   for (const Picture& picture : pictures) {
-    const auto& camera = in.job.cameras[picture.camera].camera;
     const PathOutlook path = path_outlook(picture.scene, table);
     const double paths = std::max(1.0, std::pow(path.deviation / accuracy, 2));
-    seconds += double(camera.width) * camera.height * (kPixelSetupSeconds + paths * path.seconds) /
-               double(pictures.size());
+    const double pixels = picture_pixels(in.job, in.job.cameras[picture.camera]);
+    seconds += pixels * (kPixelSetupSeconds + paths * path.seconds) / double(pictures.size());
   }
   return seconds + picture_seconds_of(in.job, pictures);
 }

@@ -13,35 +13,6 @@
 namespace skylapse::plan {
 namespace {
 
-/// Nanoseconds of one core per pixel, and bytes per pixel, of a step of the pipeline.
-struct Rate {
-  double nanoseconds;
-  double bytes;
-};
-
-constexpr double kSkyNs = 7;       // Hosek-Wilkie, or a picture from a slice
-constexpr double kDisplayNs = 51;  // exposure, display transform, dither
-constexpr double kMovieNs = 58;    // reading back and x264
-
-Rate encoding(const config::ImageOutput& output) {
-  const bool float32 = output.sample_type == output::SampleType::float32;
-  const bool u16 = output.sample_type == output::SampleType::u16;
-  if (output.format == "png") return u16 ? Rate{53, 1.8} : Rate{27, 0.9};
-  if (output.format == "jpg") return {3, 0.05};
-  if (output.format == "hdr") return {8, 0.6};
-  if (output.format == "tif") return {float32 ? 120. : 40., float32 ? 7. : u16 ? 2. : 1.};
-  return float32 ? Rate{215, 6.8} : Rate{39, 0.4};  // exr
-}
-
-Rate rate_of(const config::Output& output) {
-  if (const auto* image = std::get_if<config::ImageOutput>(&output)) {
-    Rate rate = encoding(*image);
-    if (image->view || image->display) rate.nanoseconds += kDisplayNs;
-    return rate;
-  }
-  return {kMovieNs, 0.005};
-}
-
 /// Core seconds of a pixel of the fits that have no tables of directions, and of a frame.
 constexpr double kBaselineNs = 300, kBaselineFrameSeconds = 8e-3;
 /// The path tracer: paths a second in the daytime medium (bench_reference prints it), all bands.
@@ -91,7 +62,7 @@ void add_tables(const Plan& plan, const std::vector<long>& frames, Cost& cost) {
       cost.table_core_seconds + double(needs.mixtures) * bytes * rates::kBlendSecondsPerByte;
 }
 
-/// Of the sky of one frame, without tables and files.
+/// Of the sky of one frame, without tables and files, beyond the reading of a table of directions.
 double sky_seconds(const Plan& plan, const Frame& frame, double pixels) {
   using config::SkyModel;
   switch (plan.model) {
@@ -102,36 +73,35 @@ double sky_seconds(const Plan& plan, const Frame& frame, double pixels) {
       return pixels * (kPixelSetupSeconds + double(plan.job.sky.paths.samples) / kPathsPerSecond);
     case SkyModel::single_scattering:
     case SkyModel::bruneton:
-      return pixels * kSkyNs * 1e-9 +
-             rates::frame_slice_seconds(plan, frame, effects_of(plan, frame));
+      return rates::frame_slice_seconds(plan, frame, effects_of(plan, frame));
     default:
-      return pixels * kSkyNs * 1e-9;
+      return 0;
   }
 }
 
 }  // namespace
 
-double picture_seconds(const config::JobConfig& job, const image::Camera& camera) {
-  double nanoseconds = kSkyNs;
-  for (const auto& output : job.outputs) nanoseconds += rate_of(output).nanoseconds;
-  return 1e-9 * nanoseconds * camera.width * camera.height;
-}
-
 Cost estimate_cost(const Plan& plan, const std::vector<long>& frames) {
-  Rate per_pixel{0, 0};
-  for (const auto& output : plan.job.outputs) {
-    const Rate rate = rate_of(output);
-    per_pixel.nanoseconds += rate.nanoseconds;
-    per_pixel.bytes += rate.bytes;
+  const config::JobConfig& job = plan.job;
+  std::vector<double> pixels, seconds, bytes;  // of a frame of each camera
+  for (const config::CameraConfig& camera : job.cameras) {
+    pixels.push_back(picture_pixels(job, camera));
+    seconds.push_back(picture_seconds(job, camera));
+    bytes.push_back(0);
+    for (const auto& output : job.outputs) bytes.back() += cost_of_output(output, camera).bytes;
   }
   Cost cost;
+  cost.outputs.resize(job.outputs.size());
   if (plan.model == config::SkyModel::bruneton) add_tables(plan, frames, cost);
   for (const long number : frames) {
     const Frame& frame = plan.frames[number - 1];
-    const image::Camera& camera = plan.job.cameras[frame.camera].camera;
-    const double pixels = double(camera.width) * camera.height;
-    cost.core_seconds += pixels * per_pixel.nanoseconds * 1e-9 + sky_seconds(plan, frame, pixels);
-    cost.bytes += pixels * per_pixel.bytes;
+    cost.core_seconds += seconds[frame.camera] + sky_seconds(plan, frame, pixels[frame.camera]);
+    cost.bytes += bytes[frame.camera];
+    for (size_t o = 0; o < job.outputs.size(); ++o) {
+      const OutputCost one = cost_of_output(job.outputs[o], job.cameras[frame.camera]);
+      cost.outputs[o].core_seconds += one.core_seconds;
+      cost.outputs[o].bytes += one.bytes;
+    }
   }
   return cost;
 }

@@ -25,11 +25,10 @@ EffectDecision decide(const EffectRule& rule, const Plan& plan, const Frame& fra
 
 }  // namespace
 
-bool sun_disc_in_view(const image::Camera& camera, const astro::SkyState& sky, Angle horizon) {
+bool sun_disc_in_view(const Sight& sight, const astro::SkyState& sky, Angle horizon) {
   if (elevation(sky.sun_apparent) + sky.sun_radius <= horizon) return false;
   // A disc smaller than a pixel spreads over its neighbours.
-  return disc_in_picture(camera, sky.sun_apparent,
-                         sky.sun_radius + 2 * pixel_sides(camera).largest);
+  return sight.sees_disc(sky.sun_apparent, sky.sun_radius, 2);
 }
 
 bool ground_in_view(const image::Camera& camera, Angle horizon) {

@@ -31,7 +31,7 @@ std::optional<EffectDecision> decide_effect(const Plan& plan, const Frame& frame
 sky::EffectSet effects_of(const Plan& plan, const Frame& frame);
 
 /// True if any part of the sun's disc falls into the picture and above the horizon.
-bool sun_disc_in_view(const image::Camera& camera, const astro::SkyState& sky, Angle horizon = {});
+bool sun_disc_in_view(const Sight& sight, const astro::SkyState& sky, Angle horizon = {});
 
 /// True if any pixel of the camera looks below the horizon.
 bool ground_in_view(const image::Camera& camera, Angle horizon = {});

@@ -71,18 +71,23 @@ bool is_known_air(const sky::atmosphere::AirDescription& air) {
 }
 
 std::vector<Picture> picture_scenes(const PromiseInputs& in) {
-  std::vector<CameraSky> cameras;
-  for (const config::CameraConfig& camera : in.job.cameras) cameras.emplace_back(camera.camera);
-  const size_t kinds =
-      in.job.air.turbidity.size() * in.job.air.ground_albedo.size() * cameras.size();
+  struct View {
+    int camera;
+    CameraSky sky;
+  };
+  std::vector<View> views;  // each camera has as many: those of its own and of the outputs
+  for (size_t c = 0; c < in.job.cameras.size(); ++c)
+    for (const image::Camera& sky : sight_of(in.job, in.job.cameras[c]).skies())
+      views.push_back({int(c), CameraSky(sky)});
+  const size_t kinds = in.job.air.turbidity.size() * in.job.air.ground_albedo.size() * views.size();
   const size_t every = 1 + in.schedule.times.size() * kinds / kPicturesLookedAt;
   std::vector<Picture> pictures;
   for (size_t time = 0; time < in.schedule.times.size(); time += every)
     for (size_t t = 0; t < in.job.air.turbidity.size(); ++t)
       for (size_t a = 0; a < in.job.air.ground_albedo.size(); ++a)
-        for (size_t c = 0; c < cameras.size(); ++c) {
-          Picture picture{time, int(t), int(a), int(c), {}};
-          picture.scene = scene_of(in, picture, cameras[c]);
+        for (const View& view : views) {
+          Picture picture{time, int(t), int(a), view.camera, {}};
+          picture.scene = scene_of(in, picture, view.sky);
           pictures.push_back(picture);
         }
   return pictures;

@@ -13,7 +13,8 @@ struct Picture {
   PictureScene scene;
 };
 
-/// All pictures, or evenly spaced ones of more than kPicturesLookedAt.
+/// All pictures (of the views of an output of its own too: every one is promised), or evenly spaced
+/// ones of more than kPicturesLookedAt.
 std::vector<Picture> picture_scenes(const PromiseInputs& inputs);
 inline constexpr size_t kPicturesLookedAt = 20'000;
 

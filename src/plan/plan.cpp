@@ -195,8 +195,9 @@ Status add_frames(Plan& plan, const Schedule& schedule, const std::vector<astro:
 /// What decisions need of the cameras.
 void look_through_cameras(Plan& plan) {
   for (const config::CameraConfig& camera : plan.job.cameras) {
-    plan.views.push_back(view_reach(camera.camera));
-    plan.pixels.push_back(pixel_sides(camera.camera));
+    plan.sights.push_back(sight_of(plan.job, camera));
+    plan.views.push_back(plan.sights.back().reach());
+    plan.pixels.push_back(plan.sights.back().pixels());
   }
 }
 

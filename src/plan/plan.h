@@ -12,6 +12,7 @@
 #include "plan/effects/rule.h"
 #include "plan/frame_schedule.h"
 #include "plan/promise.h"
+#include "plan/sight.h"
 #include "plan/sky_model.h"
 #include "plan/sun_for_sky.h"
 
@@ -46,8 +47,9 @@ struct Plan {
   AirTimeline air;                 // the air's keyframes in time
   // What decisions on effects rest on (effect_planner.h).
   const EffectRules* rules = &standard_rules();
-  std::vector<ViewReach> views;    // of each camera
-  std::vector<PixelSides> pixels;  // of each camera
+  std::vector<Sight> sights;       // of the frames of each camera
+  std::vector<ViewReach> views;    // of each sight
+  std::vector<PixelSides> pixels;  // of each sight
   Reach reach;
 };
 

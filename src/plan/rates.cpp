@@ -56,10 +56,11 @@ double frame_slice_seconds(const Plan& plan, const Frame& frame, sky::EffectSet 
     const Angle below = std::clamp(frame.horizon - view.lowest, 0 * deg, 90 * deg);
     const Angle above = std::clamp(view.highest - frame.horizon, 0 * deg, 90 * deg);
     seen = (below + above) / (180 * deg);
-    const image::Camera& camera = plan.job.cameras[frame.camera].camera;
+    const image::Camera* camera = plan.sights[frame.camera].only_picture();
     // Both sides of the sun are one; towards the zenith all azimuths are near.
-    if (camera.projection == image::Projection::perspective && view.highest < 80 * deg)
-      seen *= std::min(1.0, 1.5 * camera.field_of_view.in(deg) / 180);
+    if (camera != nullptr && camera->projection == image::Projection::perspective &&
+        view.highest < 80 * deg)
+      seen *= std::min(1.0, 1.5 * camera->field_of_view.in(deg) / 180);
   }
   return seconds * (kIrradianceShare + (1 - kIrradianceShare) * seen);
 }

@@ -66,7 +66,7 @@ std::vector<Medium> media_of(const PromiseInputs& in, const std::vector<Picture>
 double picture_seconds_of(const config::JobConfig& job, const std::vector<Picture>& pictures) {
   double seconds = 0;
   for (const Picture& picture : pictures)
-    seconds += picture_seconds(job, job.cameras[picture.camera].camera);
+    seconds += picture_seconds(job, job.cameras[picture.camera]);
   return pictures.empty() ? 0 : seconds / double(pictures.size());
 }
 

@@ -143,7 +143,7 @@ TEST(Effects, APictureWithinTheSunsDiscHasTheDisc) {
   camera.width = camera.height = 32;
   camera.field_of_view = 0.05 * deg;
   camera.camera_to_enu = image::look_at(azimuth(sun), elevation(sun) + 0.13 * deg, {});
-  EXPECT_TRUE(plan::sun_disc_in_view(camera, probe.frames[1].sky));
+  EXPECT_TRUE(plan::sun_disc_in_view(plan::Sight{{camera}}, probe.frames[1].sky));
 }
 
 }  // namespace

@@ -42,8 +42,7 @@ Verdict judge_refraction(const Plan& plan, const Frame& frame) {
   const std::string reason = fmt::format("lifts the sun by {:.2f} arcmin", lift.in(arcmin));
   const Angle reach = frame.sky.sun_radius + lift;
   const bool disc = plan.job.sky.sun_disc &&
-                    disc_in_picture(plan.job.cameras[frame.camera].camera, frame.sky.sun_true,
-                                    reach + 4 * plan.pixels[frame.camera].largest);
+                    plan.sights[frame.camera].sees_disc(frame.sky.sun_true, reach, 4);
   if (disc || at < kLowSun) return {true, reason, {}, kSeconds};
   const double bound = lift.in(rad)*slope_of_light(plan, frame, at);
   return {bound > kLeaveBelow, reason, bound, kSeconds};

@@ -14,7 +14,7 @@ Verdict judge_sun_disc(const Plan& plan, const Frame& frame) {
         false,
         fmt::format("the disc is below the horizon (upper limb at {:.2f} deg)", upper_limb.in(deg)),
         0, kSeconds};
-  if (!sun_disc_in_view(plan.job.cameras[frame.camera].camera, frame.sky, frame.horizon))
+  if (!sun_disc_in_view(plan.sights[frame.camera], frame.sky, frame.horizon))
     return {false, "the sun is outside the picture", 0, kSeconds};
   return {true, "the sun is in the picture", {}, kSeconds};
 }

@@ -27,9 +27,7 @@ std::vector<image::PixelPosition> outline(const Camera& camera) {
   return points;
 }
 
-bool sees_all(const Camera& camera) {
-  return camera.projection == Projection::lat_long || camera.projection == Projection::cube;
-}
+bool sees_all(const Camera& camera) { return image::sees_whole_sphere(camera.projection); }
 
 /// Directions on the circle of radius `r` around `centre`, and the centre.
 std::vector<Direction<Enu>> circle(const Direction<Enu>& centre, Angle r) {
