@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/library/web_page.h"
 #include "study/picture.h"
 #include "study/study_texts.h"
 #include "study/svg_chart.h"
@@ -146,20 +147,6 @@ class Report {
   const output::DisplayTransform& view_;
 };
 
-/// JSON inside a script element: no "</script>" may occur in it.
-std::string script_safe(const std::string& json) {
-  std::string out;
-  for (size_t i = 0; i < json.size(); ++i)
-    out += json[i] == '<' ? std::string("\\u003c") : std::string(1, json[i]);
-  return out;
-}
-
-void fill(std::string& page, const std::string& name, const std::string& text) {
-  const std::string mark = "<!--" + name + "-->";
-  const size_t at = page.find(mark);
-  if (at != std::string::npos) page.replace(at, mark.size(), text);
-}
-
 }  // namespace
 
 Result<std::string> report_html(const StudyResult& study) {
@@ -174,14 +161,12 @@ Result<std::string> report_html(const StudyResult& study) {
     std::string& target = figure.name.starts_with("pareto_") ? figures : multiples;
     target += fmt::format("<figure id=\"{}\">{}</figure>\n", escaped(figure.name), figure.svg);
   }
-  std::string page(study_text("report.html"));
-  fill(page, "style", "<style>" + std::string(study_text("report.css")) + "</style>");
-  fill(page, "figures", figures);
-  fill(page, "multiples", multiples);
-  fill(page, "data",
-       "<script type=\"application/json\" id=\"data\">" + script_safe(data->dump()) + "</script>");
-  fill(page, "script", "<script>" + std::string(study_text("report.js")) + "</script>");
-  return page;
+  return pipeline::filled_page(study_text("report.html"),
+                               {{"style", pipeline::style_element(study_text("report.css"))},
+                                {"figures", figures},
+                                {"multiples", multiples},
+                                {"data", pipeline::data_element(data->dump())},
+                                {"script", pipeline::script_element(study_text("report.js"))}});
 }
 
 }  // namespace skylapse::study

@@ -1,15 +1,20 @@
 #include "pipeline/products/product.h"
 
+#include "pipeline/products/dome.h"
+#include "pipeline/products/sun_light.h"
+
 namespace skylapse::pipeline {
 
-Result<std::vector<ProductFile>> make_product(const ProductRequest& request, StageTimes&) {
+Result<std::vector<ProductFile>> make_product(const ProductRequest& request, StageTimes& times) {
   switch (request.output.kind) {
     case config::ProductKind::specular:
     case config::ProductKind::irradiance:
     case config::ProductKind::harmonics:
-    case config::ProductKind::sun:
-    case config::ProductKind::dome:
       break;
+    case config::ProductKind::sun:
+      return make_sun(request);
+    case config::ProductKind::dome:
+      return make_dome(request, times);
   }
   return Error{ErrorCode::internal, "this product has no maker"};
 }

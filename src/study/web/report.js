@@ -1,17 +1,5 @@
-"use strict";
 (() => {
 const data = JSON.parse(document.getElementById("data").textContent);
-const byId = id => document.getElementById(id);
-const make = (tag, attributes = {}, ...children) => {
-  const node = document.createElement(tag);
-  for (const [key, value] of Object.entries(attributes)) {
-    if (key === "on") for (const [name, f] of Object.entries(value)) node.addEventListener(name, f);
-    else if (value !== null && value !== undefined) node.setAttribute(key, value);
-  }
-  node.append(...children);
-  return node;
-};
-const digits = (x, n = 2) => x >= 100 ? Math.round(x).toString() : Number(x.toPrecision(n)).toString();
 const percent = share => share === null ? "" : digits(100 * share) + " %";
 const time = ms => ms === null ? "" : ms < 10 ? digits(ms) + " ms" : ms < 1000 ? Math.round(ms) + " ms"
   : ms < 120e3 ? digits(ms / 1000) + " s" : ms < 7200e3 ? Math.round(ms / 60e3) + " min" : Math.round(ms / 3600e3) + " h";
