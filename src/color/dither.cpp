@@ -50,14 +50,15 @@ void quantise_row(const float* in, size_t samples, const uint32_t* column_hash, 
 }
 
 template <class Out>
-void quantise(const float* rgb, size_t width, size_t height, uint64_t seed, float top, Out* out) {
+void quantise(const float* rgb, size_t width, size_t height, uint64_t seed, float top, Out* out,
+              size_t first_row) {
   const size_t samples = 3 * width;
   std::vector<uint32_t> column_hash(samples);
   for (size_t i = 0; i < samples; ++i) column_hash[i] = mix32(static_cast<uint32_t>(i) + 1U);
   constexpr size_t kRowsPerPiece = 32;
   parallel_for_ranges(height, kRowsPerPiece, [&](size_t begin, size_t end) {
     for (size_t y = begin; y < end; ++y) {
-      const uint64_t key = mix64(mix64(seed + 0x9e3779b97f4a7c15ULL) + y);
+      const uint64_t key = mix64(mix64(seed + 0x9e3779b97f4a7c15ULL) + first_row + y);
       quantise_row(rgb + y * samples, samples, column_hash.data(), static_cast<uint32_t>(key), top,
                    out + y * samples);
     }
@@ -66,12 +67,14 @@ void quantise(const float* rgb, size_t width, size_t height, uint64_t seed, floa
 
 }  // namespace
 
-void quantise_u8(const float* rgb, size_t width, size_t height, uint64_t seed, uint8_t* out) {
-  quantise(rgb, width, height, seed, 255.0f, out);
+void quantise_u8(const float* rgb, size_t width, size_t height, uint64_t seed, uint8_t* out,
+                 size_t first_row) {
+  quantise(rgb, width, height, seed, 255.0f, out, first_row);
 }
 
-void quantise_u16(const float* rgb, size_t width, size_t height, uint64_t seed, uint16_t* out) {
-  quantise(rgb, width, height, seed, 65535.0f, out);
+void quantise_u16(const float* rgb, size_t width, size_t height, uint64_t seed, uint16_t* out,
+                  size_t first_row) {
+  quantise(rgb, width, height, seed, 65535.0f, out, first_row);
 }
 
 }  // namespace skylapse::color

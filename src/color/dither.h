@@ -12,10 +12,13 @@ namespace skylapse::color {
 /// Source  Lipshitz, Wannamaker, Vanderkooy 1992, J. Audio Eng. Soc. 40:355 (the triangular sum
 ///         makes mean and variance of the error independent of the signal).
 /// The noise is a function of (column, row, channel, seed) alone: same input, same bytes, on any
-/// number of threads. Seed with the frame's time, so that the grain moves from frame to frame.
-void quantise_u8(const float* rgb, size_t width, size_t height, uint64_t seed, uint8_t* out);
+/// number of threads; `first_row` is that of a piece of a picture. Seed with the frame's time, so
+/// that the grain moves from frame to frame.
+void quantise_u8(const float* rgb, size_t width, size_t height, uint64_t seed, uint8_t* out,
+                 size_t first_row = 0);
 
 /// The same to 0..65535.
-void quantise_u16(const float* rgb, size_t width, size_t height, uint64_t seed, uint16_t* out);
+void quantise_u16(const float* rgb, size_t width, size_t height, uint64_t seed, uint16_t* out,
+                  size_t first_row = 0);
 
 }  // namespace skylapse::color

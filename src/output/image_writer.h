@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,10 +19,10 @@ enum class SampleType { u8, u16, half_float, float32 };
 /// What a half-float or RGBE file does with radiance beyond 65504 (the sun's disc).
 enum class SunPolicy {
   float32,  // nothing is given up: a half file that does not fit is written in 32-bit floats
-  refuse,  // an error before anything is rendered
-  clip,    // limited to 65504; the loss of irradiance is recorded
-  scale,   // the whole image scaled by a power of two that is recorded (whiteLuminance follows)
-  split,   // the disc left out; its direction, radius and irradiance recorded
+  refuse,   // an error before anything is rendered
+  clip,     // limited to 65504; the loss of irradiance is recorded
+  scale,    // the whole image scaled by a power of two that is recorded (whiteLuminance follows)
+  split,    // the disc left out; its direction, radius and irradiance recorded
 };
 
 struct Attribute {
@@ -38,6 +39,25 @@ struct EncodeRequest {
   std::string compression = "zip";        // exr, tif
   int quality = 92;                       // jpg
   std::vector<Attribute> attributes;      // names as OpenEXR spells them
+};
+
+/// Where the bytes of a file go; writers may come back to what they have written.
+class ByteSink {
+ public:
+  virtual ~ByteSink() = default;
+  /// False if that failed; the sink knows why, and fails from then on.
+  virtual bool write_at(uint64_t offset, std::span<const std::byte> bytes) = 0;
+};
+
+/// Rows of one image on their way into a file.
+class RowWriter {
+ public:
+  virtual ~RowWriter() = default;
+  /// The next `rows` rows, samples as of EncodeRequest::pixels. Errors: as of encode; `internal` if
+  /// the library or the sink failed.
+  virtual Status add(const void* pixels, int rows) = 0;
+  /// To be called once, after the last row.
+  virtual Status finish() = 0;
 };
 
 struct DecodedImage {
@@ -65,8 +85,13 @@ struct DisplayRequest {
 class ImageIo {
  public:
   virtual ~ImageIo() = default;
-  /// The whole file in memory. Same request, same bytes.
+  /// The whole file in memory. Same request, same bytes. Refused: half samples beyond 65504; in
+  /// .hdr what is not finite or beyond kLargestRgbe.
   virtual Result<std::vector<std::byte>> encode(const EncodeRequest& request) const = 0;
+  /// For images larger than memory: the rows of `request`, whose `pixels` is not used, follow one
+  /// after the other, in any portions. The same bytes as of encode. `sink` outlives the writer.
+  virtual Result<std::unique_ptr<RowWriter>> open_rows(const EncodeRequest& request,
+                                                       ByteSink& sink) const = 0;
   virtual Result<DecodedImage> decode(const std::string& path) const = 0;
   virtual Result<std::unique_ptr<DisplayTransform>> display(
       const DisplayRequest& request) const = 0;

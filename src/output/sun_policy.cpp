@@ -3,40 +3,20 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <vector>
+
+#include "core/parallel.h"
 
 namespace skylapse::output {
 namespace {
 
-/// Largest magnitude of all samples; NaN is passed over.
-float largest_magnitude(const image::FrameBuffer& frame) {
-  float largest = 0;
-  for (const float v : frame.data())
-    if (std::fabs(v) > largest) largest = std::fabs(v);
-  return largest;
+bool beyond_half(const float* pixel) {
+  return std::fabs(pixel[0]) > kLargestHalf || std::fabs(pixel[1]) > kLargestHalf ||
+         std::fabs(pixel[2]) > kLargestHalf;
 }
 
-/// Sum of the samples but for NaN, in double: a frame has millions of them.
-double sum_of(const image::FrameBuffer& frame) {
-  double sum = 0;
-  for (const float v : frame.data()) sum += std::isnan(v) ? 0.0 : static_cast<double>(v);
-  return sum;
-}
-
-long count_beyond(const image::FrameBuffer& frame) {
-  long count = 0;
-  for (size_t i = 0; i < frame.data().size(); i += 3) {
-    const float* const p = frame.data().data() + i;
-    count += std::fabs(p[0]) > kLargestHalf || std::fabs(p[1]) > kLargestHalf ||
-                     std::fabs(p[2]) > kLargestHalf
-                 ? 1
-                 : 0;
-  }
-  return count;
-}
-
-void clip(image::FrameBuffer& frame) {
-  for (float& v : frame.data())  // NaN fails both comparisons and stays
-    v = v > kLargestHalf ? kLargestHalf : (v < -kLargestHalf ? -kLargestHalf : v);
+float cut(float v) {  // NaN fails both comparisons and stays
+  return v > kLargestHalf ? kLargestHalf : (v < -kLargestHalf ? -kLargestHalf : v);
 }
 
 double lost_share(double before, double after) {
@@ -66,42 +46,82 @@ bool exceeds_half(const image::FrameBuffer& frame) {
                      [](float v) { return std::fabs(v) > kLargestHalf; });
 }
 
-Result<SunPolicyRecord> apply_sun_policy(image::FrameBuffer& frame, SunPolicy policy,
-                                         const image::FrameBuffer* sky_only) {
-  SunPolicyRecord record{.policy = policy, .pixels_beyond_half = count_beyond(frame)};
+void RangeSurvey::add(std::span<const float> rgb, std::span<const float> kept, int width) {
+  assert(rgb.size() == kept.size() && rgb.size() % (size_t{3} * width) == 0);
+  const size_t samples = size_t{3} * width, rows = rgb.size() / samples;
+  const bool same = rgb.data() == kept.data();
+  std::vector<RangeSurvey> of_row(rows);
+  parallel_for_ranges(rows, 16, [&](size_t begin, size_t end) {
+    for (size_t y = begin; y < end; ++y) {
+      RangeSurvey& row = of_row[y];
+      for (size_t i = y * samples; i < (y + 1) * samples; i += 3) {
+        row.pixels_beyond_half += beyond_half(&rgb[i]) ? 1 : 0;
+        if (!same) row.kept_beyond_half += beyond_half(&kept[i]) ? 1 : 0;
+        for (size_t c = i; c < i + 3; ++c) {
+          const float v = rgb[c], k = cut(kept[c]);
+          if (std::fabs(v) > row.largest) row.largest = std::fabs(v);
+          row.sum += std::isnan(v) ? 0.0 : double(v);
+          row.kept_sum += std::isnan(k) ? 0.0 : double(k);
+        }
+      }
+      if (same) row.kept_beyond_half = row.pixels_beyond_half;
+    }
+  });
+  for (const RangeSurvey& row : of_row) {  // in order: the same sum for any pieces
+    largest = std::max(largest, row.largest);
+    pixels_beyond_half += row.pixels_beyond_half;
+    kept_beyond_half += row.kept_beyond_half;
+    sum += row.sum;
+    kept_sum += row.kept_sum;
+  }
+}
+
+Result<SunPolicyRecord> decide_sun_policy(const RangeSurvey& survey, SunPolicy policy) {
+  SunPolicyRecord record{.policy = policy, .pixels_beyond_half = survey.pixels_beyond_half};
+  const bool fits = survey.pixels_beyond_half == 0;
   switch (policy) {
     case SunPolicy::float32:
       return record;
     case SunPolicy::refuse:
-      if (record.pixels_beyond_half > 0) return refused(largest_magnitude(frame));
+      if (!fits) return refused(survey.largest);
       return record;
     case SunPolicy::clip:
-      if (record.pixels_beyond_half > 0) {
-        const double before = sum_of(frame);
-        clip(frame);
-        record.lost_fraction = lost_share(before, sum_of(frame));
-      }
+      if (!fits) record.lost_fraction = lost_share(survey.sum, survey.kept_sum);
       return record;
-    case SunPolicy::scale: {
-      const float largest = largest_magnitude(frame);
-      if (std::isinf(largest)) return refused(largest);
-      if (record.pixels_beyond_half == 0) return record;
-      record.scale = fitting_scale(largest);
-      for (float& v : frame.data()) v *= static_cast<float>(record.scale);
+    case SunPolicy::scale:
+      if (std::isinf(survey.largest)) return refused(survey.largest);
+      if (!fits) record.scale = fitting_scale(survey.largest);
       return record;
-    }
-    case SunPolicy::split: {
-      assert(sky_only != nullptr && sky_only->width() == frame.width() &&
-             sky_only->height() == frame.height());
-      const double before = sum_of(frame);
-      frame = *sky_only;
-      record.pixels_beyond_half = count_beyond(frame);
-      if (record.pixels_beyond_half > 0) clip(frame);
-      record.lost_fraction = lost_share(before, sum_of(frame));
+    case SunPolicy::split:
+      record.pixels_beyond_half = survey.kept_beyond_half;
+      record.lost_fraction = lost_share(survey.sum, survey.kept_sum);
       return record;
-    }
   }
   return record;
+}
+
+void apply_sun_policy(std::span<float> rgb, const SunPolicyRecord& decided) {
+  if (decided.policy == SunPolicy::scale && decided.scale != 1.0) {
+    const auto scale = float(decided.scale);
+    for (float& v : rgb) v *= scale;
+  }
+  const bool cuts = decided.policy == SunPolicy::clip || decided.policy == SunPolicy::split;
+  if (!cuts || decided.pixels_beyond_half == 0) return;
+  for (float& v : rgb) v = cut(v);
+}
+
+Result<SunPolicyRecord> apply_sun_policy(image::FrameBuffer& frame, SunPolicy policy,
+                                         const image::FrameBuffer* sky_only) {
+  assert(policy != SunPolicy::split || (sky_only != nullptr && sky_only->width() == frame.width() &&
+                                        sky_only->height() == frame.height()));
+  const image::FrameBuffer& kept = policy == SunPolicy::split ? *sky_only : frame;
+  RangeSurvey survey;
+  survey.add(frame.data(), kept.data(), frame.width());
+  const auto decided = decide_sun_policy(survey, policy);
+  if (!decided) return decided;
+  if (policy == SunPolicy::split) frame = *sky_only;
+  apply_sun_policy(frame.data(), *decided);
+  return decided;
 }
 
 std::string sun_policy_name(SunPolicy policy) {

@@ -1,5 +1,6 @@
 #pragma once
-// What a half-float file does with the sun's disc, and what that cost.
+// What a half-float or RGBE file does with the sun's disc, and what that cost.
+#include <span>
 #include <string>
 
 #include "core/result.h"
@@ -11,7 +12,7 @@ namespace skylapse::output {
 /// Largest finite half float (IEEE 754-2008, binary16).
 inline constexpr float kLargestHalf = 65504.0f;
 
-/// What became of a frame on its way into a half-float file; written to metadata and manifest.
+/// What became of a frame on its way into such a file; written to metadata and manifest.
 struct SunPolicyRecord {
   SunPolicy policy = SunPolicy::clip;
   /// Stored = radiance * scale; a power of two, 1 unless the policy is `scale`. Value 1 in the file
@@ -27,15 +28,35 @@ struct SunPolicyRecord {
 /// True if some finite or infinite sample lies outside +-65504. NaN does not count.
 bool exceeds_half(const image::FrameBuffer& frame);
 
-/// Makes `frame` fit a half-float file, in place.
-///   float32 leaves it as it is: the file's type follows
+/// What a policy must know of a picture before any of it is written, gathered in pieces of rows.
+/// The same for any pieces and any number of threads.
+struct RangeSurvey {
+  float largest = 0;            // magnitude of all samples; NaN is passed over
+  long pixels_beyond_half = 0;  // with a channel beyond 65504
+  double sum = 0;               // of all samples but NaN
+  double kept_sum = 0;          // the same of what `kept` holds, cut to 65504
+  long kept_beyond_half = 0;
+
+  /// Adds rows of `width` pixels. `kept`: the rows that will be written, of the same size: those
+  /// without the disc for `split`, else `rgb` itself.
+  void add(std::span<const float> rgb, std::span<const float> kept, int width);
+};
+
+/// What becomes of a picture with that range.
+///   float32 it is left as it is: the file's type follows
 ///   refuse  error (invalid_input) naming the brightest sample, if there is one beyond 65504
-///   clip    limits samples to +-65504
-///   scale   multiplies all samples by the largest power of two that makes them fit (exact but for
-///           numbers that fall below the smallest half, 6e-8)
-///   split   replaces the frame by `sky_only`, the same frame rendered without the disc; whatever
-///           of that still exceeds 65504 is clipped and counted
-/// Precondition: with `split`, `sky_only` is given and has the frame's size (asserted).
+///   clip    samples are limited to +-65504
+///   scale   all samples are multiplied by the largest power of two that makes them fit (exact but
+///           for numbers that fall below the smallest half, 6e-8)
+///   split   the picture without the disc is written; whatever of that still exceeds 65504 is
+///           clipped and counted
+Result<SunPolicyRecord> decide_sun_policy(const RangeSurvey& survey, SunPolicy policy);
+
+/// Does to samples what was decided; of `split` they are those without the disc.
+void apply_sun_policy(std::span<float> rgb, const SunPolicyRecord& decided);
+
+/// All of it for a picture in memory. Precondition: with `split`, `sky_only` is given and has the
+/// frame's size (asserted).
 Result<SunPolicyRecord> apply_sun_policy(image::FrameBuffer& frame, SunPolicy policy,
                                          const image::FrameBuffer* sky_only = nullptr);
 

@@ -2,60 +2,23 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
+#include <optional>
 
 #include "color/dither.h"
 #include "color/exposure.h"
-#include "color/rgb_space.h"
 #include "core/constants.h"
 #include "core/parallel.h"
 #include "core/sha256.h"
 #include "output/atomic_file.h"
-#include "output/metadata.h"
-#include "output/sun_policy.h"
 #include "pipeline/fingerprint.h"
-#include "pipeline/output_view.h"
+#include "pipeline/image_file.h"
+#include "pipeline/job_context.h"
 #include "pipeline/products/product.h"
 #include "pipeline/reference_sky.h"
 
 namespace skylapse::pipeline {
 namespace {
-
-using output::SampleType;
-
-/// Seed of the dither: the frame's moment, so that grain moves in time and repeats on resume.
-uint64_t dither_seed(const plan::Frame& frame) {
-  return uint64_t(frame.instant.utc.time_since_epoch().count()) * 2 + frame.instant.leap_second;
-}
-
-/// Exposure and display transform, all cores.
-std::vector<float> display_values(const plan::Frame& frame, const image::FrameBuffer& scene,
-                                  const output::DisplayTransform& display) {
-  const float scale = float(color::exposure_scale_per_cd_m2(frame.ev) * kLuminousEfficacy);
-  std::vector<float> values(scene.data().size());
-  parallel_for_ranges(scene.pixel_count(), 1 << 14, [&](size_t begin, size_t end) {
-    for (size_t i = 3 * begin; i < 3 * end; ++i) values[i] = scene.data()[i] * scale;
-    display.apply(values.data() + 3 * begin, end - begin);
-  });
-  return values;
-}
-
-std::vector<uint8_t> quantised_u8(const plan::Frame& frame, const image::FrameBuffer& scene,
-                                  const output::DisplayTransform& display) {
-  const auto values = display_values(frame, scene, display);
-  std::vector<uint8_t> picture(values.size());
-  color::quantise_u8(values.data(), size_t(scene.width()), size_t(scene.height()),
-                     dither_seed(frame), picture.data());
-  return picture;
-}
-
-std::vector<uint16_t> quantised_u16(const plan::Frame& frame, const image::FrameBuffer& scene,
-                                    const output::DisplayTransform& display) {
-  const auto values = display_values(frame, scene, display);
-  std::vector<uint16_t> picture(values.size());
-  color::quantise_u16(values.data(), size_t(scene.width()), size_t(scene.height()),
-                      dither_seed(frame), picture.data());
-  return picture;
-}
 
 /// Where the config names the view; the output's path if it names none.
 SourceSpan view_span_of(const config::Output& output) {
@@ -67,154 +30,95 @@ SourceSpan view_span_of(const config::Output& output) {
   return config::path_of(output).span;
 }
 
-output::EnvironmentMap environment_of(const config::CameraConfig& camera) {
-  if (camera.camera.projection == image::Projection::lat_long)
-    return output::EnvironmentMap::lat_long;
-  const bool openexr_cube = camera.camera.projection == image::Projection::cube &&
-                            !camera.cube_faces_apart &&
-                            camera.camera.cube_layout == image::CubeLayout::vertical_strip;
-  return openexr_cube ? output::EnvironmentMap::cube : output::EnvironmentMap::none;
+bool same_camera(const image::Camera& a, const image::Camera& b) {
+  return a.projection == b.projection && a.width == b.width && a.height == b.height &&
+         a.field_of_view == b.field_of_view && a.cube_layout == b.cube_layout &&
+         a.camera_to_enu == b.camera_to_enu;
 }
 
-/// What every file of a frame says about itself.
-output::FrameMetadata metadata_of(const plan::Plan& plan, const plan::Frame& frame,
-                                  const FrameLight& light, const std::string& fingerprint) {
-  const config::JobConfig& job = plan.job;
-  output::FrameMetadata meta;
-  meta.utc = frame.instant.utc;
-  meta.utc_offset = frame.local.utc_offset;
-  const auto& zone = job.sites[frame.site].zone ? job.sites[frame.site].zone : job.time.zone;
-  if (zone) meta.zone = zone->value;
-  meta.position = job.sites[frame.site].position;
-  meta.site = job.sites[frame.site].name;
-  meta.sun = frame.sky.sun_apparent;
-  meta.moon = frame.sky.moon_apparent;
-  meta.sun_radius = frame.sky.sun_radius;
-  if (const auto space = color::rgb_space_from_name(job.color.space)) meta.space = *space;
-  meta.exposure_ev100 = frame.ev;
-  meta.model = plan::name_of(plan.model);
-  meta.extrapolated = frame.sun.extrapolated;
-  meta.fingerprint = fingerprint;
-  meta.sun_illuminance = light.disc_energy.normal_irradiance.y * kLuminousEfficacy * lux;
-  return meta;
-}
-
-output::FrameMetadata metadata_of_image(const FrameSource& source,
-                                        const config::ImageOutput& output, bool display,
-                                        const config::CameraConfig& camera,
-                                        const std::string& fingerprint) {
-  auto meta = metadata_of(source.plan, source.frame, source.light, fingerprint);
-  meta.encoding = display ? output::PixelEncoding::display : output::PixelEncoding::absolute;
-  meta.display = output.display.value_or("");
-  meta.view = output.view.value_or("");
-  meta.environment = environment_of(camera);
-  return meta;
-}
-
-/// The pixels of one image output, before anything is given up for a file format.
-struct Picture {
-  image::FrameBuffer scene;
-  std::optional<image::FrameBuffer> without_disc;  // for the sun policy `split`
+/// Rows of the camera's picture that are made at once, and where they lie in the files.
+struct RowRange {
+  int source_row = 0, file_row = 0, rows = 0;
 };
 
-Result<Picture> picture_of(const FrameLight& light, const image::Camera& camera,
-                           const config::ImageOutput& output, StageTimes& times) {
-  auto sky = light.picture(camera, Disc::without, times);
-  if (!sky) return sky.error();
-  Picture picture{*std::move(sky), {}};
-  if (output.content == config::ImageContent::standard_error) {
-    if (light.sky.noise) picture.scene = light.sky.noise->standard_error;
-    return picture;
-  }
-  if (output.content == config::ImageContent::sky || !light.disc_shows) return picture;
-  if (output.sun_policy == output::SunPolicy::split) picture.without_disc = picture.scene;
-  const StageTimer timer(times, Stage::disc);
-  sky::add_sun_disc(camera, light.disc, picture.scene);
-  return picture;
+/// All rows in the order of the files, in ranges of at most `strip_pixels`.
+std::vector<RowRange> row_ranges(const OutputView& view, size_t strip_pixels) {
+  const image::Camera& camera = view.camera.camera;
+  const int most = int(std::max<size_t>(1, strip_pixels / size_t(camera.width)));
+  const bool by_face =
+      view.reorders_faces() && camera.cube_layout == image::CubeLayout::vertical_strip;
+  const int blocks = by_face ? 6 : 1, block_rows = camera.height / blocks;
+  std::vector<RowRange> ranges;
+  for (int b = 0; b < blocks; ++b)
+    for (int row = 0; row < block_rows; row += most)
+      ranges.push_back({(by_face ? view.faces[size_t(b)] : b) * block_rows + row,
+                        b * block_rows + row, std::min(most, block_rows - row)});
+  return ranges;
 }
 
-/// The samples of an output in the type its file holds, owned here.
-struct Samples {
-  std::vector<uint8_t> u8;
-  std::vector<uint16_t> u16;
-  image::FrameBuffer linear;
-  std::vector<float> display;
-  const std::byte* data = nullptr;
-  size_t bytes_per_row = 0;
-};
+void exchange_columns(image::FrameBuffer& picture, int first, int second, int count) {
+  for (int y = 0; y < picture.height(); ++y)
+    std::swap_ranges(picture.pixel(first, y), picture.pixel(first, y) + 3 * ptrdiff_t(count),
+                     picture.pixel(second, y));
+}
 
-Result<Samples> samples_of(const plan::Frame& frame, const Picture& rendered,
-                           const config::ImageOutput& output,
-                           const output::DisplayTransform* display, output::FrameMetadata& meta) {
-  Samples s;
-  const size_t row_samples = size_t(3) * rendered.scene.width();
-  if (display != nullptr && output.sample_type == SampleType::u8) {
-    s.u8 = quantised_u8(frame, rendered.scene, *display);
-    s.data = reinterpret_cast<const std::byte*>(s.u8.data());
-    s.bytes_per_row = row_samples;
-  } else if (display != nullptr && output.sample_type == SampleType::u16) {
-    s.u16 = quantised_u16(frame, rendered.scene, *display);
-    s.data = reinterpret_cast<const std::byte*>(s.u16.data());
-    s.bytes_per_row = 2 * row_samples;
-  } else if (display != nullptr) {
-    s.display = display_values(frame, rendered.scene, *display);
-    s.data = reinterpret_cast<const std::byte*>(s.display.data());
-    s.bytes_per_row = sizeof(float) * row_samples;
-  } else {
-    const image::FrameBuffer* pixels = &rendered.scene;
-    if (output.sample_type == SampleType::half_float) {
-      s.linear = rendered.scene;
-      const auto record = output::apply_sun_policy(
-          s.linear, output.sun_policy,
-          rendered.without_disc ? &*rendered.without_disc : &rendered.scene);
-      if (!record) return record.error();
-      meta.sun_policy = *record;
-      pixels = &s.linear;
+/// Makes the strips of one view.
+class StripMaker {
+ public:
+  StripMaker(const FrameSource& source, const OutputView& view, bool with_sky, bool weighed)
+      : source_(source), view_(view), with_sky_(with_sky), weighed_(weighed) {}
+
+  Status make(const RowRange& range, PictureStrip& strip, StageTimes& times) const {
+    const image::Camera& camera = view_.camera.camera;
+    strip.first_row = range.file_row;
+    if (strip.scene.height() != range.rows)
+      strip.scene = image::FrameBuffer(camera.width, range.rows);
+    else
+      std::fill(strip.scene.data().begin(), strip.scene.data().end(), 0.0F);
+    const Status filled =
+        source_.light.fill_rows(camera, Disc::without, range.source_row, strip.scene, times);
+    if (!filled) return filled;
+    if (source_.light.sky.noise) strip.standard_error = &source_.light.sky.noise->standard_error;
+    if (with_sky_) strip.sky = strip.scene;
+    if (source_.light.disc_shows) {
+      const StageTimer timer(times, Stage::disc);
+      sky::add_sun_disc_rows(camera, source_.light.disc, range.source_row, strip.scene);
     }
-    s.data = reinterpret_cast<const std::byte*>(pixels->data().data());
-    s.bytes_per_row = sizeof(float) * row_samples;
+    const StageTimer timer(times, Stage::encode);
+    if (weighed_) strip.weights.emplace(camera, range.source_row, range.rows);
+    arrange(strip);
+    return Done{};
   }
-  return s;
-}
 
-std::map<std::string, double> light_record(const FrameLight& light) {
-  const auto lux_of = [](const glm::dvec3& xyz) { return xyz.y * kLuminousEfficacy; };
-  return {{"sky_horizontal_lux", lux_of(light.sky.sky_irradiance_xyz)},
-          {"sun_horizontal_lux", lux_of(light.disc_energy.horizontal_irradiance)},
-          {"sun_normal_lux", lux_of(light.disc_energy.normal_irradiance)}};
-}
+ private:
+  /// Faces side by side, in the order of the files.
+  void arrange(PictureStrip& strip) const {
+    const image::Camera& camera = view_.camera.camera;
+    if (!view_.reorders_faces() || camera.cube_layout != image::CubeLayout::horizontal_strip)
+      return;
+    const int side = camera.height;  // only the last two change places
+    assert(view_.faces[4] == 5 && view_.faces[5] == 4);
+    exchange_columns(strip.scene, 4 * side, 5 * side, side);
+    if (with_sky_) exchange_columns(strip.sky, 4 * side, 5 * side, side);
+    if (strip.weights) strip.weights->exchange_columns(4 * side, 5 * side, side);
+  }
 
-std::map<std::string, double> noise_record(const FrameLight& light) {
-  if (!light.sky.noise) return {};
-  const auto& record = light.sky.noise->record;
-  return {{"paths", double(record.paths)},
-          {"mean_relative_error", record.mean_relative_error},
-          {"max_relative_error", record.max_relative_error},
-          {"share_of_pixels_reached", record.share_reached},
-          {"sky_horizontal_relative_error", light.sky.noise->sky_irradiance_error}};
-}
-
-std::map<std::string, double> encoding_record(const output::FrameMetadata& meta) {
-  if (!meta.sun_policy) return {};
-  return {{"scale", meta.sun_policy->scale},
-          {"pixels_beyond_half", double(meta.sun_policy->pixels_beyond_half)},
-          {"lost_fraction", meta.sun_policy->lost_fraction}};
-}
+  const FrameSource& source_;
+  const OutputView& view_;
+  bool with_sky_, weighed_;
+};
 
 /// Writes a finished file and describes it for the ledger.
-Result<LedgerEntry> write_and_describe(const FrameSource& source, const std::string& file,
-                                       const std::string& fingerprint,
-                                       std::span<const std::byte> bytes, StageTimes& times) {
+Result<LedgerEntry> write_whole(const FrameSource& source, const std::string& file,
+                                const std::string& fingerprint, const ProductFile& made,
+                                StageTimes& times) {
   const StageTimer timer(times, Stage::write);
-  const Status written = output::write_file_atomically(source.folder / file, bytes);
+  const Status written = output::write_file_atomically(source.folder / file, made.bytes);
   if (!written) return written.error();
-  LedgerEntry entry;
-  entry.path = file;
-  entry.fingerprint = fingerprint;
-  entry.sha256 = sha256_hex(bytes);
-  entry.bytes = bytes.size();
-  entry.light = light_record(source.light);
-  entry.noise = noise_record(source.light);
+  LedgerEntry entry = entry_for(source, file, fingerprint);
+  entry.sha256 = sha256_hex(made.bytes);
+  entry.bytes = made.bytes.size();
+  entry.encoding = made.encoding;
   return entry;
 }
 
@@ -254,66 +158,119 @@ const output::DisplayTransform* Displays::of(size_t output) const {
   return by_output_[output].get();
 }
 
+uint64_t dither_seed(const plan::Frame& frame) {
+  return uint64_t(frame.instant.utc.time_since_epoch().count()) * 2 + frame.instant.leap_second;
+}
+
+void display_values(const plan::Frame& frame, const image::FrameBuffer& scene,
+                    const output::DisplayTransform& display, std::span<float> values) {
+  assert(values.size() == scene.data().size());
+  const float scale = float(color::exposure_scale_per_cd_m2(frame.ev) * kLuminousEfficacy);
+  parallel_for_ranges(scene.pixel_count(), 1 << 14, [&](size_t begin, size_t end) {
+    for (size_t i = 3 * begin; i < 3 * end; ++i) values[i] = scene.data()[i] * scale;
+    display.apply(values.data() + 3 * begin, end - begin);
+  });
+}
+
 std::vector<uint8_t> display_picture(const plan::Frame& frame, const RenderedFrame& rendered,
                                      const output::DisplayTransform& display, StageTimes& times) {
   const StageTimer timer(times, Stage::display);
-  return quantised_u8(frame, rendered.scene, display);
+  const image::FrameBuffer& scene = rendered.scene;
+  std::vector<float> values(scene.data().size());
+  display_values(frame, scene, display, values);
+  std::vector<uint8_t> picture(values.size());
+  color::quantise_u8(values.data(), size_t(scene.width()), size_t(scene.height()),
+                     dither_seed(frame), picture.data());
+  return picture;
 }
 
-Result<std::vector<LedgerEntry>> write_image_output(const FrameSource& source, size_t index,
-                                                    const std::string& fingerprint,
-                                                    StageTimes& times) {
-  const auto& output = std::get<config::ImageOutput>(source.plan.job.outputs[index]);
-  const output::DisplayTransform* display = source.displays.of(index);
-  const OutputView view = view_of_output(source.plan, source.frame, output);
-  auto meta = metadata_of_image(source, output, display != nullptr, view.camera, fingerprint);
-  const auto picture = picture_of(source.light, view.camera.camera, output, times);
-  if (!picture) return picture.error();
-  Result<Samples> samples = [&] {
-    const StageTimer timer(times, Stage::display);
-    return samples_of(source.frame, *picture, output, display, meta);
-  }();
-  if (!samples) {
-    Error error = samples.error();
-    error.span = output.sun_policy_span.line > 0 ? output.sun_policy_span : output.path.span;
-    return error;
+std::vector<ViewGroup> group_by_view(const plan::Plan& plan, const plan::Frame& frame,
+                                     const std::vector<size_t>& outputs) {
+  std::vector<ViewGroup> groups;
+  for (const size_t o : outputs) {
+    const auto* image = std::get_if<config::ImageOutput>(&plan.job.outputs[o]);
+    if (image == nullptr) continue;
+    const OutputView view = view_of_output(plan, frame, *image);
+    const auto known = std::find_if(groups.begin(), groups.end(), [&](const ViewGroup& group) {
+      return same_camera(group.view.camera.camera, view.camera.camera) &&
+             group.view.faces == view.faces;
+    });
+    if (known != groups.end())
+      known->outputs.push_back(o);
+    else
+      groups.push_back({view, {o}});
   }
-  const auto files = plan::files_of(source.plan, source.frame, index);
-  output::EncodeRequest request;
-  request.format = output.format;
-  request.width = picture->scene.width();
-  request.height = picture->scene.height() / int(files.size());
-  request.type = output.sample_type;
-  request.compression = output.compression;
-  request.quality = output.quality;
-  request.attributes = output::frame_attributes(meta);
-
-  std::vector<LedgerEntry> entries;
-  for (size_t part = 0; part < files.size(); ++part) {
-    const size_t face = files.size() == 1 ? 0 : size_t(view.faces[part]);
-    request.pixels = samples->data + samples->bytes_per_row * size_t(request.height) * face;
-    Result<std::vector<std::byte>> bytes = [&] {
-      const StageTimer timer(times, Stage::encode);
-      return source.io.encode(request);
-    }();
-    if (!bytes) return bytes.error();
-    auto entry = write_and_describe(source, files[part], fingerprint, *bytes, times);
-    if (!entry) return entry.error();
-    entry->encoding = encoding_record(meta);
-    entries.push_back(*std::move(entry));
-  }
-  return entries;
+  return groups;
 }
 
-Result<std::vector<LedgerEntry>> write_product(const FrameSource& source, size_t index,
-                                               const std::string& fingerprint, StageTimes& times) {
+Status write_view(const FrameSource& source, const ViewGroup& group,
+                  const FingerprintOf& fingerprint_of, const StageTimes& before,
+                  const Record& record, StageTimes& times, size_t strip_pixels) {
+  std::vector<ImageFile> files;
+  bool sky = false, weighed = false, survey = false;
+  for (const size_t o : group.outputs) {
+    const ImageFile& file = files.emplace_back(source, o, group.view, fingerprint_of(o));
+    sky = sky || file.needs_sky();
+    weighed = weighed || file.is_weighed();
+    survey = survey || file.needs_survey();
+  }
+  weighed = weighed && image::sees_upper_hemisphere(group.view.camera.camera);
+  // Paths are drawn for a whole picture: their record is of that.
+  const size_t at_once = source.light.sky.noise ? ~size_t{0} : strip_pixels;
+  const auto ranges = row_ranges(group.view, at_once);
+  const StripMaker maker(source, group.view, sky, weighed);
+  PictureStrip strip;
+  StageTimes shared;
+  const auto for_strips = [&](const auto& act, bool made) -> Status {
+    for (const RowRange& range : ranges) {
+      if (source.stopped && source.stopped()) return interrupted();
+      if (!made)
+        if (const Status filled = maker.make(range, strip, shared); !filled) return filled;
+      for (ImageFile& file : files)
+        if (const Status acted = act(file); !acted) return acted;
+    }
+    return Done{};
+  };
+  if (survey) {
+    const Status seen = for_strips(
+        [&](ImageFile& file) -> Status {
+          if (file.needs_survey()) file.survey(strip);
+          return Done{};
+        },
+        false);
+    if (!seen) return seen;
+  }
+  for (ImageFile& file : files)
+    if (const Status opened = file.open(); !opened) return opened;
+  const bool still_there = survey && ranges.size() == 1;
+  const Status written = for_strips([&](ImageFile& file) { return file.add(strip); }, still_there);
+  if (!written) return written;
+  times += shared;
+  for (ImageFile& file : files) {
+    auto entries = file.finish();
+    if (!entries) return entries.error();
+    StageTimes all = before;
+    all += shared;
+    all += file.times();
+    times += file.times();
+    for (LedgerEntry& entry : *entries) {
+      entry.times = all;
+      if (const Status recorded = record(std::move(entry)); !recorded) return recorded;
+    }
+  }
+  return Done{};
+}
+
+Status write_product(const FrameSource& source, size_t index, const std::string& fingerprint,
+                     const StageTimes& before, const Record& record, StageTimes& times) {
   const auto& output = std::get<config::ProductOutput>(source.plan.job.outputs[index]);
   const auto files = plan::files_of(source.plan, source.frame, index);
   const ProductRequest request{
       source.plan,  source.frame, output,
       source.light, source.io,    metadata_of(source.plan, source.frame, source.light, fingerprint),
       files};
-  const auto made = make_product(request, times);
+  StageTimes own;
+  const auto made = make_product(request, own);
   if (!made) {
     Error error = made.error();
     if (error.span.line == 0) error.span = output.path.span;
@@ -322,12 +279,17 @@ Result<std::vector<LedgerEntry>> write_product(const FrameSource& source, size_t
   assert(made->size() == files.size());
   std::vector<LedgerEntry> entries;
   for (size_t i = 0; i < files.size(); ++i) {
-    auto entry = write_and_describe(source, files[i], fingerprint, (*made)[i].bytes, times);
+    auto entry = write_whole(source, files[i], fingerprint, (*made)[i], own);
     if (!entry) return entry.error();
-    entry->encoding = (*made)[i].encoding;
     entries.push_back(*std::move(entry));
   }
-  return entries;
+  times += own;
+  own += before;
+  for (LedgerEntry& entry : entries) {
+    entry.times = own;
+    if (const Status recorded = record(std::move(entry)); !recorded) return recorded;
+  }
+  return Done{};
 }
 
 }  // namespace skylapse::pipeline

@@ -1,14 +1,14 @@
 #pragma once
-// From scene-linear pixels to the files of one frame.
-#include <filesystem>
-#include <map>
+// From the light of a frame to its files.
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "output/image_writer.h"
-#include "pipeline/frame_light.h"
+#include "pipeline/frame_source.h"
 #include "pipeline/ledger.h"
+#include "pipeline/output_view.h"
 #include "pipeline/render_frame.h"
 #include "plan/plan.h"
 
@@ -27,27 +27,46 @@ class Displays {
   std::vector<std::shared_ptr<const output::DisplayTransform>> by_output_;
 };
 
+/// Seed of the dither: the frame's moment, so that grain moves in time and repeats on resume.
+uint64_t dither_seed(const plan::Frame& frame);
+
+/// Exposure and display transform of rows of a picture, all cores; `values` has their size.
+void display_values(const plan::Frame& frame, const image::FrameBuffer& scene,
+                    const output::DisplayTransform& display, std::span<float> values);
+
 /// Display-referred 8-bit picture of a frame, dithered with a seed from the frame's moment.
 std::vector<uint8_t> display_picture(const plan::Frame& frame, const RenderedFrame& rendered,
                                      const output::DisplayTransform& display, StageTimes& times);
 
-/// What all files of a frame are made from.
-struct FrameSource {
-  const output::ImageIo& io;
-  const plan::Plan& plan;
-  const plan::Frame& frame;
-  const FrameLight& light;
-  const Displays& displays;
-  std::filesystem::path folder;
+/// Pixels of a picture that are in memory at once; larger ones are made in strips of rows.
+inline constexpr size_t kStripPixels = size_t{8} << 20;
+
+/// Bytes that a frame takes at most for each pixel in memory: the scene, itself without the disc,
+/// the values of a file, and what its library makes of them, three floats each; a weight.
+inline constexpr double kBytesPerPixel = 4 * 3 * sizeof(float) + sizeof(float);
+
+/// Image outputs of a frame that show the same pixels.
+struct ViewGroup {
+  OutputView view;
+  std::vector<size_t> outputs;
 };
+std::vector<ViewGroup> group_by_view(const plan::Plan& plan, const plan::Frame& frame,
+                                     const std::vector<size_t>& outputs);
 
-/// Renders, encodes and writes one image output of a frame; one ledger entry for each of its files.
-Result<std::vector<LedgerEntry>> write_image_output(const FrameSource& source, size_t output,
-                                                    const std::string& fingerprint,
-                                                    StageTimes& times);
+/// What is told of each finished file.
+using Record = std::function<Status(LedgerEntry)>;
+/// Fingerprint of an output of the frame.
+using FingerprintOf = std::function<std::string(size_t output)>;
 
-/// Makes and writes one product of a frame; one ledger entry for each of its files.
-Result<std::vector<LedgerEntry>> write_product(const FrameSource& source, size_t output,
-                                               const std::string& fingerprint, StageTimes& times);
+/// Renders a view once (twice, if it is larger than kStripPixels and a file must know the whole
+/// before it begins), encodes and writes all its outputs. The same bytes for any size of the
+/// strips. `times` is of all of it; an entry's times are `before`, the view's and its own output's.
+Status write_view(const FrameSource& source, const ViewGroup& group,
+                  const FingerprintOf& fingerprint_of, const StageTimes& before,
+                  const Record& record, StageTimes& times, size_t strip_pixels = kStripPixels);
+
+/// Makes and writes one product of a frame.
+Status write_product(const FrameSource& source, size_t output, const std::string& fingerprint,
+                     const StageTimes& before, const Record& record, StageTimes& times);
 
 }  // namespace skylapse::pipeline

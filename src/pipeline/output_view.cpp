@@ -11,7 +11,9 @@ OutputView view_of_output(const plan::Plan& plan, const plan::Frame& frame,
   if (!output.orientation || !image::stands_upright(camera.projection)) return view;
   camera.camera_to_enu =
       image::look_at(image::map_heading(camera.projection, *output.orientation), Angle{}, Angle{});
-  if (!view.camera.cube_faces_apart) return view;
+  const bool strip = camera.cube_layout == image::CubeLayout::vertical_strip ||
+                     camera.cube_layout == image::CubeLayout::horizontal_strip;
+  if (camera.projection != image::Projection::cube || !strip) return view;
   const auto& faces = image::faces_in(image::convention_of(*output.orientation).cube_order);
   for (size_t i = 0; i < faces.size(); ++i) view.faces[i] = int(faces[i]);
   return view;

@@ -9,8 +9,10 @@ namespace skylapse::pipeline {
 /// How an image output looks at the sky of a frame.
 struct OutputView {
   config::CameraConfig camera;
-  /// Faces of the camera's strip in the order of the output's files, where they lie apart.
+  /// Faces of the camera's strip in the order in which the output has them, in files of their own
+  /// or in a strip.
   std::array<int, 6> faces{0, 1, 2, 3, 4, 5};
+  [[nodiscard]] bool reorders_faces() const { return faces != OutputView{}.faces; }
 };
 
 /// The output's own view, else that of the frame's camera. A map or cube with an orientation has

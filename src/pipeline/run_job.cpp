@@ -79,30 +79,31 @@ void run_task(const JobContext& job, Task& task) {
     task.error = light.error();
     return;
   }
-  const FrameSource source{job.io, job.plan, frame, *light, job.displays, job.options.output};
+  const FrameSource source{
+      job.io, job.plan, frame, *light, job.displays, job.options.output, [&job] {
+        return job.stopped();
+      }};
   const StageTimes of_frame = task.times;
+  const auto fingerprint_of = [&](size_t output) { return job.fingerprint(frame, output); };
+  const auto record = [&](const LedgerEntry& entry) {
+    task.bytes += entry.bytes;
+    return job.ledger.record(entry);
+  };
+  const auto keep_error = [&](const Status& status) {
+    if (!status) task.error = status.error();
+    return status.ok();
+  };
+  for (const ViewGroup& group : group_by_view(job.plan, frame, task.missing))
+    if (!keep_error(write_view(source, group, fingerprint_of, of_frame, record, task.times)))
+      return;
   for (const size_t o : task.missing) {
+    if (!std::holds_alternative<config::ProductOutput>(job.plan.job.outputs[o])) continue;
     if (job.stopped()) {
       task.error = interrupted();
       return;
     }
-    StageTimes own;  // of this output
-    const std::string print = job.fingerprint(frame, o);
-    auto entries = std::holds_alternative<config::ProductOutput>(job.plan.job.outputs[o])
-                       ? write_product(source, o, print, own)
-                       : write_image_output(source, o, print, own);
-    if (!entries) {
-      task.error = entries.error();
+    if (!keep_error(write_product(source, o, fingerprint_of(o), of_frame, record, task.times)))
       return;
-    }
-    task.times += own;
-    own += of_frame;
-    for (LedgerEntry& entry : *entries) {
-      entry.times = own;
-      task.bytes += entry.bytes;
-      const Status recorded = job.ledger.record(entry);
-      if (!recorded) task.error = recorded.error();
-    }
   }
 }
 
@@ -185,12 +186,19 @@ bool JobContext::recorded(const plan::Frame& frame, size_t output) const {
 }
 
 int frames_in_flight(const plan::Plan& plan, int threads) {
-  constexpr double kBudgetBytes = 2.0 * 1024 * 1024 * 1024;
-  // Scene, its copy for a half file or without the disc, and display values: floats, three each.
-  constexpr double kBytesPerPixel = 3 * 3 * sizeof(float);
+  constexpr double kBudgetBytes = 1.5 * 1024 * 1024 * 1024;
   double largest = 1;
-  for (const auto& camera : plan.job.cameras)
+  const auto count = [&](const config::CameraConfig& camera) {
     largest = std::max(largest, double(camera.camera.width) * camera.camera.height);
+  };
+  for (const auto& camera : plan.job.cameras) count(camera);
+  for (const config::Output& output : plan.job.outputs) {
+    const auto* image = std::get_if<config::ImageOutput>(&output);
+    const auto* product = std::get_if<config::ProductOutput>(&output);
+    if (image != nullptr && image->own_view) count(*image->own_view);
+    if (product != nullptr && product->view) count(*product->view);
+  }
+  if (plan.model != config::SkyModel::reference) largest = std::min(largest, double(kStripPixels));
   return std::clamp(int(kBudgetBytes / (largest * kBytesPerPixel)), 1, threads + 1);
 }
 

@@ -46,7 +46,7 @@ struct RunSummary {
 /// (ErrorCode::interrupted for a signal).
 Result<RunSummary> run_job(const plan::Plan& plan, const RunOptions& options);
 
-/// Frames that may be in memory at once: enough for all threads, within 2 GiB of pixels.
+/// Frames that may be in memory at once: enough for all threads, within 1.5 GiB of pixels.
 int frames_in_flight(const plan::Plan& plan, int threads);
 
 }  // namespace skylapse::pipeline

@@ -214,7 +214,9 @@ TEST(RunJob, FramesInFlightAreBoundedByMemory) {
   EXPECT_EQ(frames_in_flight(plan, 8), 9);
   plan.job.cameras[0].camera.width = 16384;
   plan.job.cameras[0].camera.height = 8192;
-  EXPECT_EQ(frames_in_flight(plan, 8), 1);
+  EXPECT_EQ(frames_in_flight(plan, 8), 3);  // in strips
+  plan.model = config::SkyModel::reference;
+  EXPECT_EQ(frames_in_flight(plan, 8), 1);  // whole
 }
 
 }  // namespace

@@ -2,17 +2,16 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
+#include <cassert>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <system_error>
+#include <functional>
+#include <span>
 
+#include "output/stored_numbers.h"
 #include "output/sun_policy.h"
 
 namespace skylapse::output::imageio {
@@ -62,13 +61,11 @@ std::string listed(const Range& range, Name name) {
 }
 
 /// Half floats turn larger values into Inf without a word; the caller's sun policy comes first.
-Status check_half_range(const EncodeRequest& r) {
-  const auto* p = static_cast<const float*>(r.pixels);
-  const size_t samples = size_t{3} * static_cast<size_t>(r.width) * static_cast<size_t>(r.height);
+Status check_half_range(std::span<const float> values) {
   size_t beyond = 0;
   float largest = 0;
-  for (size_t i = 0; i < samples; ++i) {
-    const float a = std::fabs(p[i]);
+  for (const float v : values) {
+    const float a = std::fabs(v);
     beyond += a > kLargestHalf ? 1 : 0;  // NaN is not beyond: it has its own half float
     largest = a > largest ? a : largest;
   }
@@ -78,6 +75,16 @@ Status check_half_range(const EncodeRequest& r) {
                  "write 32-bit floats, or choose the sun policy clip, scale or split");
 }
 
+/// RGBE knows neither Inf nor NaN.
+Status check_rgbe_range(std::span<const float> values) {
+  const auto fits = [](float v) { return v <= kLargestRgbe && v > -kLargestRgbe; };
+  const auto beyond = size_t(std::count_if(values.begin(), values.end(), std::not_fn(fits)));
+  if (beyond == 0) return Done{};
+  return refusal(std::to_string(beyond) + " samples are not finite or beyond " +
+                     std::to_string(kLargestRgbe) + ": .hdr cannot hold them",
+                 "write .exr with 32-bit floats");
+}
+
 Status check(const EncodeRequest& r) {
   const auto& all = formats();
   const auto rules = std::find_if(all.begin(), all.end(),
@@ -85,7 +92,7 @@ Status check(const EncodeRequest& r) {
   if (rules == all.end())
     return refusal("unknown image format '" + r.format + "'",
                    "known: " + listed(all, [](const FormatRules& f) { return f.name; }));
-  if (r.width <= 0 || r.height <= 0 || r.pixels == nullptr)
+  if (r.width <= 0 || r.height <= 0)
     return refusal("an image without pixels cannot be encoded", "");
   if (std::find(rules->types.begin(), rules->types.end(), r.type) == rules->types.end())
     return refusal("." + r.format + " files cannot hold " + file_type(r.type).c_str() + " samples",
@@ -99,7 +106,6 @@ Status check(const EncodeRequest& r) {
   if (r.format == "jpg" && (r.quality < 1 || r.quality > 100))
     return refusal("jpeg quality " + std::to_string(r.quality) + " is out of range",
                    "allowed: 1 to 100");
-  if (r.type == SampleType::half_float) return check_half_range(r);
   return Done{};
 }
 
@@ -173,66 +179,144 @@ Error library_failure(const EncodeRequest& r, const std::string& why) {
   return {.code = ErrorCode::internal, .message = "cannot encode ." + r.format + ": " + why};
 }
 
-/// Bytes of an anonymous memory file, for writers that insist on a file name.
-class MemoryFile {
+/// The library's idea of a file, over a sink. Small writes are gathered: some packers write a byte
+/// at a time.
+class SinkProxy final : public OIIO::Filesystem::IOProxy {
  public:
-  MemoryFile() : fd_(::memfd_create("skylapse", MFD_CLOEXEC)) {}
-  ~MemoryFile() {
-    if (fd_ >= 0) ::close(fd_);
+  SinkProxy(const std::string& name, ByteSink& sink) : IOProxy(name, Mode::Write), sink_(sink) {}
+  const char* proxytype() const override { return "skylapse"; }
+  void close() override { flush_gathered(); }
+  bool seek(int64_t offset) override {
+    m_pos = offset;
+    return true;
   }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  [[nodiscard]] bool valid() const { return fd_ >= 0; }
-  [[nodiscard]] std::string name() const { return "/proc/self/fd/" + std::to_string(fd_); }
-  Result<std::vector<std::byte>> bytes() const {
-    const off_t size = ::lseek(fd_, 0, SEEK_END);
-    std::vector<std::byte> all(static_cast<size_t>(std::max<off_t>(size, 0)));
-    for (size_t done = 0; done < all.size();) {
-      const ssize_t n =
-          ::pread(fd_, all.data() + done, all.size() - done, static_cast<off_t>(done));
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return Error{.message = std::generic_category().message(errno)};
-      done += static_cast<size_t>(n);
+  size_t write(const void* bytes, size_t size) override {
+    const size_t written = pwrite(bytes, size, m_pos);
+    m_pos += int64_t(written);
+    return written;
+  }
+  size_t pwrite(const void* bytes, size_t size, int64_t offset) override {
+    constexpr size_t kMost = size_t{1} << 20;
+    const auto at = uint64_t(offset);
+    if (at != start_ + gathered_.size() || gathered_.size() + size > kMost) {
+      if (!flush_gathered()) return 0;
+      start_ = at;
     }
-    return all;
+    const auto* const begin = static_cast<const std::byte*>(bytes);
+    if (size > kMost) {
+      if (!(fine_ = sink_.write_at(at, {begin, size}))) return 0;
+      start_ = at + size;
+    } else {
+      gathered_.insert(gathered_.end(), begin, begin + size);
+    }
+    end_ = std::max(end_, at + size);
+    return size;
+  }
+  size_t size() const override { return end_; }
+  /// False if any write failed.
+  bool flush_gathered() {
+    if (fine_ && !gathered_.empty()) fine_ = sink_.write_at(start_, gathered_);
+    start_ += gathered_.size();
+    gathered_.clear();
+    return fine_;
   }
 
  private:
-  int fd_;
+  ByteSink& sink_;
+  std::vector<std::byte> gathered_;
+  uint64_t start_ = 0, end_ = 0;
+  bool fine_ = true;
 };
 
-/// Opens, writes, closes. Empty text is success.
-std::string write_image(OIIO::ImageOutput& out, const EncodeRequest& r, const std::string& name) {
-  const OIIO::ImageSpec spec = make_spec(r);
-  if (!out.open(name, spec)) return out.geterror();
-  const bool half = r.type == SampleType::half_float;
-  const OIIO::TypeDesc type = half ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT) : file_type(r.type);
-  if (!out.write_image(type, r.pixels)) return out.geterror();
-  return out.close() ? std::string() : out.geterror();
-}
+class OiioRowWriter final : public RowWriter {
+ public:
+  OiioRowWriter(EncodeRequest request, ByteSink& sink)
+      : request_(std::move(request)), proxy_("frame." + request_.format, sink) {}
+
+  Status open() {
+    out_ = OIIO::ImageOutput::create("frame." + request_.format);
+    if (!out_) return library_failure(request_, OIIO::geterror());
+    out_->set_ioproxy(&proxy_);
+    if (!out_->open("frame." + request_.format, make_spec(request_))) return failure();
+    return Done{};
+  }
+
+  Status add(const void* pixels, int rows) override {
+    assert(rows > 0 && next_row_ + rows <= request_.height);
+    const void* samples = pixels;
+    const size_t count = size_t{3} * size_t(request_.width) * size_t(rows);
+    if (request_.type == SampleType::half_float) {
+      const Status fits = check_half_range({static_cast<const float*>(pixels), count});
+      if (!fits) return fits;
+    }
+    if (request_.format == "hdr") {
+      const auto* const begin = static_cast<const float*>(pixels);
+      const Status fits = check_rgbe_range({begin, count});
+      if (!fits) return fits;
+      rounded_.assign(begin, begin + count);
+      prepare_for_truncating_rgbe(rounded_);
+      samples = rounded_.data();
+    }
+    const bool half = request_.type == SampleType::half_float;
+    const OIIO::TypeDesc type =
+        half ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT) : file_type(request_.type);
+    if (!out_->write_scanlines(next_row_, next_row_ + rows, 0, type, samples)) return failure();
+    next_row_ += rows;
+    return Done{};
+  }
+
+  Status finish() override {
+    assert(next_row_ == request_.height);
+    const bool closed = out_->close();
+    const Status state = closed ? Status(Done{}) : failure();
+    out_.reset();  // some writers finish the file only now
+    if (!state) return state;
+    if (!proxy_.flush_gathered()) return library_failure(request_, "the bytes were not taken");
+    return Done{};
+  }
+
+ private:
+  Error failure() { return library_failure(request_, out_->geterror()); }
+  EncodeRequest request_;
+  SinkProxy proxy_;  // before the library's object, which uses it to its end
+  std::unique_ptr<OIIO::ImageOutput> out_;
+  std::vector<float> rounded_;
+  int next_row_ = 0;
+};
+
+/// Bytes in memory.
+class MemorySink final : public ByteSink {
+ public:
+  bool write_at(uint64_t offset, std::span<const std::byte> bytes) override {
+    if (bytes_.size() < offset + bytes.size()) bytes_.resize(offset + bytes.size());
+    std::copy(bytes.begin(), bytes.end(), bytes_.begin() + ptrdiff_t(offset));
+    return true;
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
 
 }  // namespace
 
-Result<std::vector<std::byte>> encode(const EncodeRequest& request) {
+Result<std::unique_ptr<RowWriter>> open_rows(const EncodeRequest& request, ByteSink& sink) {
   if (Status ok = check(request); !ok) return ok.error();
-  auto out = OIIO::ImageOutput::create("frame." + request.format);
-  if (!out) return library_failure(request, OIIO::geterror());
-  if (out->supports("ioproxy")) {
-    std::vector<unsigned char> buffer;
-    OIIO::Filesystem::IOVecOutput memory(buffer);
-    out->set_ioproxy(&memory);
-    const std::string failure = write_image(*out, request, "frame." + request.format);
-    out.reset();  // some writers finish the file only now
-    if (!failure.empty()) return library_failure(request, failure);
-    const auto* begin = reinterpret_cast<const std::byte*>(buffer.data());
-    return std::vector<std::byte>(begin, begin + buffer.size());
+  auto writer = std::make_unique<OiioRowWriter>(request, sink);
+  if (Status opened = writer->open(); !opened) return opened.error();
+  return std::unique_ptr<RowWriter>(std::move(writer));
+}
+
+Result<std::vector<std::byte>> encode(const EncodeRequest& request) {
+  if (request.pixels == nullptr) return refusal("an image without pixels cannot be encoded", "");
+  MemorySink memory;
+  {
+    auto writer = open_rows(request, memory);
+    if (!writer) return writer.error();
+    if (Status added = (*writer)->add(request.pixels, request.height); !added) return added.error();
+    if (Status finished = (*writer)->finish(); !finished) return finished.error();
   }
-  const MemoryFile memory;
-  if (!memory.valid()) return library_failure(request, std::generic_category().message(errno));
-  const std::string failure = write_image(*out, request, memory.name());
-  out.reset();
-  if (!failure.empty()) return library_failure(request, failure);
-  return memory.bytes();
+  return memory.take();
 }
 
 }  // namespace skylapse::output::imageio

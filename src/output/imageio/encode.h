@@ -8,4 +8,7 @@ namespace skylapse::output::imageio {
 /// empty image, a half float beyond 65504.
 Result<std::vector<std::byte>> encode(const EncodeRequest& request);
 
+/// See ImageIo::open_rows.
+Result<std::unique_ptr<RowWriter>> open_rows(const EncodeRequest& request, ByteSink& sink);
+
 }  // namespace skylapse::output::imageio

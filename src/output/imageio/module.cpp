@@ -24,6 +24,10 @@ class ModuleImageIo final : public ImageIo {
   Result<std::vector<std::byte>> encode(const EncodeRequest& request) const override {
     return imageio::encode(request);
   }
+  Result<std::unique_ptr<RowWriter>> open_rows(const EncodeRequest& request,
+                                               ByteSink& sink) const override {
+    return imageio::open_rows(request, sink);
+  }
   Result<DecodedImage> decode(const std::string& path) const override {
     return imageio::decode(path);
   }

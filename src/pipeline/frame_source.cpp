@@ -1,0 +1,64 @@
+#include "pipeline/frame_source.h"
+
+#include <utility>
+
+#include "color/rgb_space.h"
+#include "core/constants.h"
+#include "pipeline/reference_sky.h"
+
+namespace skylapse::pipeline {
+namespace {
+
+double lux_of(const glm::dvec3& xyz) { return xyz.y * kLuminousEfficacy; }
+
+std::map<std::string, double> noise_record(const FrameLight& light) {
+  if (!light.sky.noise) return {};
+  const auto& record = light.sky.noise->record;
+  return {{"paths", double(record.paths)},
+          {"mean_relative_error", record.mean_relative_error},
+          {"max_relative_error", record.max_relative_error},
+          {"share_of_pixels_reached", record.share_reached},
+          {"sky_horizontal_relative_error", light.sky.noise->sky_irradiance_error}};
+}
+
+}  // namespace
+
+output::FrameMetadata metadata_of(const plan::Plan& plan, const plan::Frame& frame,
+                                  const FrameLight& light, const std::string& fingerprint) {
+  const config::JobConfig& job = plan.job;
+  output::FrameMetadata meta;
+  meta.utc = frame.instant.utc;
+  meta.utc_offset = frame.local.utc_offset;
+  const auto& zone = job.sites[frame.site].zone ? job.sites[frame.site].zone : job.time.zone;
+  if (zone) meta.zone = zone->value;
+  meta.position = job.sites[frame.site].position;
+  meta.site = job.sites[frame.site].name;
+  meta.sun = frame.sky.sun_apparent;
+  meta.moon = frame.sky.moon_apparent;
+  meta.sun_radius = frame.sky.sun_radius;
+  if (const auto space = color::rgb_space_from_name(job.color.space)) meta.space = *space;
+  meta.exposure_ev100 = frame.ev;
+  meta.model = plan::name_of(plan.model);
+  meta.extrapolated = frame.sun.extrapolated;
+  meta.fingerprint = fingerprint;
+  meta.sun_illuminance = lux_of(light.disc_energy.normal_irradiance) * lux;
+  return meta;
+}
+
+LedgerEntry entry_for(const FrameSource& source, std::string file, std::string fingerprint) {
+  LedgerEntry entry;
+  entry.path = std::move(file);
+  entry.fingerprint = std::move(fingerprint);
+  const TrueLight light = true_light(source.light);
+  entry.light = {{"sky_horizontal_lux", light.sky},
+                 {"sun_horizontal_lux", light.sun},
+                 {"sun_normal_lux", lux_of(source.light.disc_energy.normal_irradiance)}};
+  entry.noise = noise_record(source.light);
+  return entry;
+}
+
+TrueLight true_light(const FrameLight& light) {
+  return {lux_of(light.sky.sky_irradiance_xyz), lux_of(light.disc_energy.horizontal_irradiance)};
+}
+
+}  // namespace skylapse::pipeline
