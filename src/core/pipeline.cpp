@@ -27,6 +27,7 @@ struct Steps {
   Token* token = item ? new Token{std::move(item), {}} : nullptr;
   if (token != nullptr) token->done.reached();
   steps.after_next.reached();
+  if (token == nullptr) steps.ended.reached();
   return token;
 }
 
