@@ -86,22 +86,16 @@ Result<image::FrameBuffer> label_strip(const output::ImageIo& io, const Existing
 
 }  // namespace
 
-Status make_contact_sheet(const std::vector<ExistingFrame>& all, const std::filesystem::path& file,
-                          const SheetSettings& settings) {
-  const bool jpeg = has_extension(file, {"jpg", "jpeg"});
-  if (!jpeg && !has_extension(file, {"png"}))
-    return Error{ErrorCode::invalid_input,
-                 fmt::format("'{}' has no extension of a contact sheet", file.string()),
-                 {},
-                 "known: .png, .jpg, .jpeg"};
-  const auto io = output::open_image_io();
-  if (!io) return io.error();
+Result<std::vector<std::byte>> contact_sheet(const output::ImageIo& io,
+                                             const std::vector<ExistingFrame>& all,
+                                             const std::string& format,
+                                             const SheetSettings& settings) {
   const auto frames = evenly_chosen(all, settings.max_frames);
   std::vector<Result<image::FrameBuffer>> thumbnails(
       frames.size(), Result<image::FrameBuffer>(image::FrameBuffer()));
   parallel_for_ranges(frames.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
-      thumbnails[i] = thumbnail(**io, frames[i], settings.thumbnail_width);
+      thumbnails[i] = thumbnail(io, frames[i], settings.thumbnail_width);
   });
   int cell_height = 0;
   for (const auto& small : thumbnails) {
@@ -121,7 +115,7 @@ Status make_contact_sheet(const std::vector<ExistingFrame>& all, const std::file
   for (int i = 0; i < count; ++i) {
     const int x = kGap + i % columns * cell_width, y = kGap + i / columns * cell_height;
     paste(*thumbnails[i], sheet, x, y);
-    const auto label = label_strip(**io, frames[i], settings.thumbnail_width);
+    const auto label = label_strip(io, frames[i], settings.thumbnail_width);
     if (!label) return label.error();
     paste(*label, sheet, x, y + cell_height - kGap - kLabelHeight);
   }
@@ -129,11 +123,24 @@ Status make_contact_sheet(const std::vector<ExistingFrame>& all, const std::file
   std::transform(sheet.data().begin(), sheet.data().end(), rgb.begin(),
                  [](float v) { return uint8_t(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f); });
   output::EncodeRequest request;
-  request.format = jpeg ? "jpg" : "png";
+  request.format = format;
   request.width = sheet.width(), request.height = sheet.height();
   request.type = output::SampleType::u8;
   request.pixels = rgb.data();
-  const auto bytes = (*io)->encode(request);
+  return io.encode(request);
+}
+
+Status make_contact_sheet(const std::vector<ExistingFrame>& frames,
+                          const std::filesystem::path& file, const SheetSettings& settings) {
+  const bool jpeg = has_extension(file, {"jpg", "jpeg"});
+  if (!jpeg && !has_extension(file, {"png"}))
+    return Error{ErrorCode::invalid_input,
+                 fmt::format("'{}' has no extension of a contact sheet", file.string()),
+                 {},
+                 "known: .png, .jpg, .jpeg"};
+  const auto io = output::open_image_io();
+  if (!io) return io.error();
+  const auto bytes = contact_sheet(**io, frames, jpeg ? "jpg" : "png", settings);
   if (!bytes) return bytes.error();
   return output::write_file_atomically(file, *bytes);
 }

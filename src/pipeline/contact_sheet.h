@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "output/image_writer.h"
 #include "pipeline/existing_frames.h"
 
 namespace skylapse::pipeline {
@@ -14,6 +15,12 @@ struct SheetSettings {
   int thumbnail_width = 240;
   int max_frames = 120;  // evenly chosen if there are more
 };
+
+/// A sheet of labelled thumbnails as the bytes of a "png" or "jpg".
+Result<std::vector<std::byte>> contact_sheet(const output::ImageIo& io,
+                                             const std::vector<ExistingFrame>& frames,
+                                             const std::string& format,
+                                             const SheetSettings& settings);
 
 /// Writes a PNG or JPEG sheet of labelled thumbnails, whole. A label that is wider than its picture
 /// is shortened, and at last cut, so that it never reaches the next. Other extensions than .png,

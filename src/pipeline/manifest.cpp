@@ -11,6 +11,7 @@
 #include "image/orientation.h"
 #include "output/atomic_file.h"
 #include "output/sun_policy.h"
+#include "pipeline/library/library_pass.h"
 #include "pipeline/movie_pass.h"
 #include "pipeline/promise_json.h"
 #include "plan/effect_planner.h"
@@ -249,6 +250,8 @@ ordered_json head_json(const JobContext& job) {
     if (job.ledger.knows(movie.path))
       if (const auto entry = job.ledger.find(movie.path, fingerprint_of(job, movie)))
         movies.push_back(entry_json(*entry));
+  auto library = ordered_json::array();
+  for (const LedgerEntry& entry : library_entries(job)) library.push_back(entry_json(entry));
   return {{"program", "skylapse"},
           {"version", kVersion},
           {"source_hash", kSourceHash},
@@ -264,6 +267,7 @@ ordered_json head_json(const JobContext& job) {
           {"atmosphere", atmosphere_json(job)},
           {"notes", job.plan.notes},
           {"movies", movies},
+          {"library", library},
           {"frames_total", job.plan.frames.size()}};
 }
 

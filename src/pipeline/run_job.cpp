@@ -10,6 +10,7 @@
 #include "output/atomic_file.h"
 #include "pipeline/fingerprint.h"
 #include "pipeline/job_context.h"
+#include "pipeline/library/library_pass.h"
 #include "pipeline/manifest.h"
 #include "pipeline/movie_pass.h"
 
@@ -241,6 +242,12 @@ Result<RunSummary> run_job(const plan::Plan& plan, const RunOptions& as_asked) {
     const Status movies = make_movies(job, summary);
     if (!movies) failure = movies.error();
     summary.movie_seconds = seconds_since(movie_start);
+  }
+  if (!failure) {
+    const auto library_start = Clock::now();
+    const Status library = make_library_files(job, summary);
+    if (!library) failure = library.error();
+    summary.library_seconds = seconds_since(library_start);
   }
   summary.complete = all_recorded(job);
   for (const std::string& text : atmospheres.notes()) summary.notes.push_back(text);

@@ -36,7 +36,7 @@ struct RunSummary {
   uintmax_t bytes_written = 0;
   StageTimes times;  // summed over frames; sky is core time, others wall time of one thread
   double seconds = 0;
-  double movie_seconds = 0;
+  double movie_seconds = 0, library_seconds = 0;
   bool complete = false;  // every frame of the job is there, other shards included
   std::vector<std::string> notes;
 };
