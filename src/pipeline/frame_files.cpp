@@ -80,10 +80,7 @@ class StripMaker {
     if (!filled) return filled;
     if (source_.light.sky.noise) strip.standard_error = &source_.light.sky.noise->standard_error;
     if (with_sky_) strip.sky = strip.scene;
-    if (source_.light.disc_shows) {
-      const StageTimer timer(times, Stage::disc);
-      sky::add_sun_disc_rows(camera, source_.light.disc, range.source_row, strip.scene);
-    }
+    source_.light.add_disc_rows(camera, range.source_row, strip.scene, times);
     const StageTimer timer(times, Stage::encode);
     if (weighed_) strip.weights.emplace(camera, range.source_row, range.rows);
     arrange(strip);

@@ -1,7 +1,9 @@
 #include "pipeline/frame_light.h"
 
 #include "color/rgb_space.h"
+#include "image/irradiance.h"
 #include "plan/effect_planner.h"
+#include "sky/level_light.h"
 
 namespace skylapse::pipeline {
 namespace {
@@ -23,11 +25,21 @@ Status FrameLight::fill_rows(const image::Camera& camera, Disc with, int first_r
     const Status filled = sky.fill(camera, xyz_to_rgb, first_row, out);
     if (!filled) return filled;
   }
-  if (with == Disc::with && disc_shows) {
-    const StageTimer timer(times, Stage::disc);
-    sky::add_sun_disc_rows(camera, disc, first_row, out);
-  }
+  if (with == Disc::with) add_disc_rows(camera, first_row, out, times);
   return Done{};
+}
+
+void FrameLight::add_disc_rows(const image::Camera& camera, int first_row, image::FrameBuffer& out,
+                               StageTimes& times) const {
+  if (!disc_shows) return;
+  const StageTimer timer(times, Stage::disc);
+  auto projected = sky::project_sun_disc(camera, disc);
+  if (image::sees_upper_hemisphere(camera)) {
+    const glm::dvec3 of_disc = sky::disc_energy(disc).horizontal_irradiance;
+    const glm::dvec3 of_sky = glm::max(xyz_to_rgb * sky.sky_irradiance_xyz, 0.0);
+    sky::sink_to_level(camera, of_disc + kLevelSlack * (of_disc + of_sky), projected);
+  }
+  sky::add_rows(projected, first_row, out);
 }
 
 Result<image::FrameBuffer> FrameLight::picture(const image::Camera& camera, Disc with,

@@ -9,6 +9,10 @@
 
 namespace skylapse::pipeline {
 
+/// Part of the irradiance of level ground by sky and sun that coarse pixels may add before light of
+/// the disc is sunk below the level.
+inline constexpr double kLevelSlack = 0.001;
+
 /// What stands in the sky beside the sky.
 enum class Disc { with, without };
 
@@ -24,6 +28,11 @@ struct FrameLight {
   /// as that. A disc that does not show is left out in either case.
   Status fill_rows(const image::Camera& camera, Disc disc, int first_row, image::FrameBuffer& out,
                    StageTimes& times) const;
+  /// Adds the disc, if it shows, to such rows. A picture of the whole upper hemisphere, which can
+  /// light a scene, keeps the disc's flux and, within kLevelSlack of the irradiance of level
+  /// ground, that too: see sky::sink_to_level.
+  void add_disc_rows(const image::Camera& camera, int first_row, image::FrameBuffer& out,
+                     StageTimes& times) const;
   /// The whole picture.
   Result<image::FrameBuffer> picture(const image::Camera& camera, Disc disc,
                                      StageTimes& times) const;

@@ -20,10 +20,7 @@ Result<RenderedFrame> render_frame(const plan::Plan& plan, const plan::Frame& fr
   out.scene = *std::move(scene);
   if (light->sky.noise) out.noise = std::move(*light->sky.noise);
   if (keep_without_disc) out.scene_without_disc = out.scene;
-  if (light->disc_shows) {
-    const StageTimer timer(times, Stage::disc);
-    sky::add_sun_disc(camera, light->disc, out.scene);
-  }
+  light->add_disc_rows(camera, 0, out.scene, times);
   return out;
 }
 

@@ -100,15 +100,6 @@ ProjectedDisc to_radiance(const std::vector<LitPixel>& pixels) {
   return projected;
 }
 
-void add_rows(const ProjectedDisc& projected, int first_row, image::FrameBuffer& image) {
-  for (const PixelAddition& a : projected.pixels) {
-    const int row = a.y - first_row;
-    if (row < 0 || row >= image.height()) continue;
-    float* p = image.pixel(a.x, row);
-    for (int c = 0; c < 3; ++c) p[c] += static_cast<float>(a.radiance[c]);
-  }
-}
-
 }  // namespace
 
 ProjectedDisc project_sun_disc(const image::Camera& camera, const SunDisc& disc) {
@@ -131,6 +122,15 @@ ProjectedDisc project_sun_disc(const image::Camera& camera, const SunDisc& disc)
   set_flux(pixels, target.normal_irradiance);
   set_horizontal(pixels, target.horizontal_irradiance, plan.pixel_extent_rad);
   return to_radiance(pixels);
+}
+
+void add_rows(const ProjectedDisc& projected, int first_row, image::FrameBuffer& image) {
+  for (const PixelAddition& a : projected.pixels) {
+    const int row = a.y - first_row;
+    if (row < 0 || row >= image.height()) continue;
+    float* p = image.pixel(a.x, row);
+    for (int c = 0; c < 3; ++c) p[c] += static_cast<float>(a.radiance[c]);
+  }
 }
 
 DiscEnergy add_sun_disc(const image::Camera& camera, const SunDisc& disc,

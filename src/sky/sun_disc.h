@@ -80,6 +80,10 @@ struct ProjectedDisc {
 /// Cost      0.3 ms for a small disc, 0.6 us per pixel of a large one, whatever the image size.
 ProjectedDisc project_sun_disc(const image::Camera& camera, const SunDisc& disc);
 
+/// Adds what of a projected disc lies in the rows [first_row, first_row + image.height()) of the
+/// picture to an image of them.
+void add_rows(const ProjectedDisc& projected, int first_row, image::FrameBuffer& image);
+
 /// Adds project_sun_disc to an image of the camera's size (asserted); returns its energy. Add the
 /// disc after the ground: the pixels of the horizon hold both.
 DiscEnergy add_sun_disc(const image::Camera& camera, const SunDisc& disc,
