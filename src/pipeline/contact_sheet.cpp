@@ -52,6 +52,13 @@ void paste(const image::FrameBuffer& from, image::FrameBuffer& to, int x, int y)
     std::memcpy(to.pixel(x, y + row), from.row(row), sizeof(float) * 3 * from.width());
 }
 
+/// As many columns of a strip as fit.
+void paste_columns(const image::FrameBuffer& from, image::FrameBuffer& to) {
+  const int columns = std::min(from.width(), to.width());
+  for (int y = 0; y < to.height(); ++y)
+    std::memcpy(to.row(y), from.row(y), sizeof(float) * 3 * size_t(columns));
+}
+
 /// Columns of a strip up to the last that text was drawn in.
 int drawn_width(const image::FrameBuffer& strip) {
   for (int x = strip.width(); x > 0; --x)
@@ -62,26 +69,46 @@ int drawn_width(const image::FrameBuffer& strip) {
   return 0;
 }
 
-/// The longest label of a frame that fits under a picture of `width`, drawn on the background; if
-/// none fits, the shortest as far as it goes.
-Result<image::FrameBuffer> label_strip(const output::ImageIo& io, const ExistingFrame& frame,
+/// The label of a frame that is shortened `times` times, as far as it can be.
+const std::string& label_text(const ExistingFrame& frame, size_t times) {
+  const size_t i = std::min(times, frame.shorter.size());
+  return i == 0 ? frame.label : frame.shorter[i - 1];
+}
+
+/// Text on the background, as wide as it needs.
+Result<image::FrameBuffer> drawn_text(const output::ImageIo& io, const std::string& text) {
+  // No glyph of the font is wider than 1.4 times its height.
+  image::FrameBuffer strip(2 + int(1.4 * kTextHeight) * (int(text.size()) + 1), kLabelHeight);
+  std::fill(strip.data().begin(), strip.data().end(), kBackground);
+  const Status drawn = io.draw_text(strip, 2, kLabelHeight - 6, kTextHeight, text);
+  if (!drawn) return drawn.error();
+  return strip;
+}
+
+/// How often the labels of a sheet are shortened, all alike, until each fits under a picture of
+/// `width`; at last they are cut.
+Result<size_t> times_shortened(const output::ImageIo& io, const std::vector<ExistingFrame>& frames,
+                               int width) {
+  size_t times = 0;
+  for (const ExistingFrame& frame : frames)
+    while (times < frame.shorter.size()) {
+      const auto strip = drawn_text(io, label_text(frame, times));
+      if (!strip) return strip.error();
+      if (drawn_width(*strip) <= width) break;
+      ++times;
+    }
+  return times;
+}
+
+/// A label under a picture of `width`, cut where it is wider.
+Result<image::FrameBuffer> label_strip(const output::ImageIo& io, const std::string& text,
                                        int width) {
-  std::vector<std::string> texts{frame.label};
-  texts.insert(texts.end(), frame.shorter.begin(), frame.shorter.end());
-  for (size_t i = 0; i < texts.size(); ++i) {
-    // No glyph of the font is wider than 1.4 times its height.
-    const int roomy = std::max(width, 2 + int(1.4 * kTextHeight) * (int(texts[i].size()) + 1));
-    image::FrameBuffer strip(roomy, kLabelHeight);
-    std::fill(strip.data().begin(), strip.data().end(), kBackground);
-    const Status drawn = io.draw_text(strip, 2, kLabelHeight - 6, kTextHeight, texts[i]);
-    if (!drawn) return drawn.error();
-    if (drawn_width(strip) > width && i + 1 < texts.size()) continue;
-    image::FrameBuffer cut(width, kLabelHeight);
-    for (int y = 0; y < kLabelHeight; ++y)
-      std::memcpy(cut.row(y), strip.row(y), sizeof(float) * 3 * size_t(width));
-    return cut;
-  }
-  return image::FrameBuffer(width, kLabelHeight);  // not reached: there is one text at least
+  const auto strip = drawn_text(io, text);
+  if (!strip) return strip.error();
+  image::FrameBuffer cut(width, kLabelHeight);
+  std::fill(cut.data().begin(), cut.data().end(), kBackground);
+  paste_columns(*strip, cut);
+  return cut;
 }
 
 }  // namespace
@@ -112,10 +139,12 @@ Result<std::vector<std::byte>> contact_sheet(const output::ImageIo& io,
   const int rows = (count + columns - 1) / columns;
   image::FrameBuffer sheet(columns * cell_width + kGap, rows * cell_height + kGap);
   std::fill(sheet.data().begin(), sheet.data().end(), kBackground);
+  const auto times = times_shortened(io, frames, settings.thumbnail_width);
+  if (!times) return times.error();
   for (int i = 0; i < count; ++i) {
     const int x = kGap + i % columns * cell_width, y = kGap + i / columns * cell_height;
     paste(*thumbnails[i], sheet, x, y);
-    const auto label = label_strip(io, frames[i], settings.thumbnail_width);
+    const auto label = label_strip(io, label_text(frames[i], *times), settings.thumbnail_width);
     if (!label) return label.error();
     paste(*label, sheet, x, y + cell_height - kGap - kLabelHeight);
   }

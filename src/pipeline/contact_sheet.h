@@ -22,10 +22,10 @@ Result<std::vector<std::byte>> contact_sheet(const output::ImageIo& io,
                                              const std::string& format,
                                              const SheetSettings& settings);
 
-/// Writes a PNG or JPEG sheet of labelled thumbnails, whole. A label that is wider than its picture
-/// is shortened, and at last cut, so that it never reaches the next. Other extensions than .png,
-/// .jpg and .jpeg are invalid_input. Scene-linear files (.exr, .hdr) are
-/// shown as they are stored, clipped to 0..1 and sRGB-encoded.
+/// Writes a PNG or JPEG sheet of labelled thumbnails, whole. If a label is wider than its picture
+/// all are shortened alike, and at last cut, so that none reaches the next. Other extensions than
+/// .png, .jpg and .jpeg are invalid_input. Scene-linear files (.exr, .hdr) are shown as they are
+/// stored, clipped to 0..1 and sRGB-encoded.
 Status make_contact_sheet(const std::vector<ExistingFrame>& frames,
                           const std::filesystem::path& file, const SheetSettings& settings);
 
