@@ -34,7 +34,7 @@ std::array<double, kHarmonics> harmonics_at(const glm::dvec3& d) {
           k22 * (d.x - d.y) * (d.x + d.y)};
 }
 
-Harmonics operator+(const Harmonics& a, const Harmonics& b) {
+Harmonics sum_of(const Harmonics& a, const Harmonics& b) {
   Harmonics sum = a;
   for (int i = 0; i < kHarmonics; ++i) sum[i] += b[i];
   return sum;
@@ -56,7 +56,7 @@ Harmonics project_picture(const Camera& camera, const FrameBuffer& image,
       }
   });
   Harmonics sum{};
-  for (const Harmonics& row : rows) sum = sum + row;  // in a fixed order, whoever made the rows
+  for (const Harmonics& row : rows) sum = sum_of(sum, row);  // in a fixed order, whoever made the rows
   return sum;
 }
 

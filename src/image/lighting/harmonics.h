@@ -44,7 +44,7 @@ Harmonics project_picture(const Camera& camera, const FrameBuffer& image,
 /// Of point lights: the sum of E Y.
 Harmonics project_lights(std::span<const PointLight> lights, const glm::dmat3& enu_to_axes);
 
-Harmonics operator+(const Harmonics& a, const Harmonics& b);
+Harmonics sum_of(const Harmonics& a, const Harmonics& b);
 
 /// Factors of the degrees 0, 1, 2 that turn light into irradiance: pi, 2 pi / 3, pi / 4
 /// (Ramamoorthi & Hanrahan 2001, Eq. 8).

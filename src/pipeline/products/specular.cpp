@@ -1,0 +1,144 @@
+#include "pipeline/products/specular.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "image/camera/cube.h"
+#include "image/irradiance.h"
+#include "image/lighting/cube_mips.h"
+#include "image/lighting/specular.h"
+#include "output/sun_policy.h"
+#include "pipeline/products/cube_texture.h"
+
+namespace skylapse::pipeline {
+namespace {
+
+// The sky is rendered no smaller, whatever the first level's side: narrow lobes see its detail.
+constexpr int kSmallestSky = 128;
+
+struct Levels {
+  std::vector<image::FrameBuffer> cubes;
+  std::vector<double> roughness;
+  double sun_roughness = 0;  // by which the disc of the first level is spread; 0: not at all
+};
+
+bool is_half(const ProductRequest& request) {
+  return request.output.format != "hdr" &&
+         request.output.sample_type == output::SampleType::half_float;
+}
+
+/// The lowest alpha at which the disc, with the sky behind it, fits the file's numbers.
+double lowest_alpha(const ProductRequest& request, const image::FrameBuffer& sky,
+                    const std::vector<image::PointLight>& disc) {
+  if (!is_half(request) || disc.empty()) return 0;
+  const float brightest = *std::max_element(sky.data().begin(), sky.data().end());
+  const double room = 0.99 * output::kLargestHalf - brightest;
+  return room > 0 ? image::alpha_for_peak(disc, room) : 1;
+}
+
+/// Level 0: the sky with its disc, spread only if the file's numbers end too soon.
+Status add_mirrored_disc(const ProductRequest& request, const image::Camera& camera,
+                         const std::vector<image::PointLight>& disc, double alpha, Levels& levels,
+                         StageTimes& times) {
+  if (disc.empty()) return Done{};
+  image::FrameBuffer& cube = levels.cubes.front();
+  image::FrameBuffer with = cube;
+  const image::Camera view = image::strip_camera(camera, cube.width());
+  {
+    const StageTimer timer(times, Stage::disc);
+    sky::add_sun_disc(view, request.light.disc, with);
+  }
+  if (is_half(request) && output::exceeds_half(with)) {
+    const StageTimer timer(times, Stage::product);
+    image::add_filtered_lights(view, disc, alpha, cube);
+    levels.sun_roughness = std::sqrt(alpha);
+  } else {
+    cube = std::move(with);
+  }
+  return Done{};
+}
+
+Result<Levels> levels_of(const ProductRequest& request, const image::Camera& camera,
+                         StageTimes& times) {
+  const int side = camera.width, count = std::max(1, request.output.levels);
+  const int sky_side = side * ((kSmallestSky + side - 1) / side);
+  const image::Camera sky_camera = image::strip_camera(camera, sky_side);
+  auto sky = request.light.picture(sky_camera, Disc::without, times);
+  if (!sky) return sky.error();
+  const auto disc = disc_lights(request);
+  const double least = lowest_alpha(request, *sky, disc);
+
+  Levels levels;
+  levels.roughness.push_back(0);
+  levels.cubes.push_back(sky_side == side ? *sky : image::shrunk_cube(*sky, side));
+  const Status mirrored = add_mirrored_disc(request, camera, disc, least, levels, times);
+  if (!mirrored) return mirrored.error();
+  if (count == 1) return levels;
+  const StageTimer timer(times, Stage::product);
+  const double narrowest = image::alpha_of_roughness(image::roughness_of_level(1, count));
+  const image::SpecularSource source(sky_camera, *sky, narrowest);
+  for (int level = 1; level < count; ++level) {
+    const double roughness = image::roughness_of_level(level, count);
+    const double alpha = image::alpha_of_roughness(roughness);
+    image::FrameBuffer cube = source.filtered(image::level_side(side, level), alpha);
+    image::add_filtered_lights(camera, disc, std::max(alpha, least), cube);
+    levels.roughness.push_back(roughness);
+    levels.cubes.push_back(std::move(cube));
+  }
+  return levels;
+}
+
+std::string list_of(const std::vector<double>& values) {
+  return fmt::format("{:.6g}", fmt::join(values, " "));
+}
+
+/// What the file's numbers of a level give to level ground.
+double stored_lux(const ProductRequest& request, const image::Camera& camera,
+                  image::FrameBuffer cube) {
+  round_as_stored(request.output.format, request.output.sample_type, cube);
+  return horizontal_lux(request.light,
+                        image::image_irradiance(image::strip_camera(camera, cube.width()), cube));
+}
+
+}  // namespace
+
+Result<std::vector<ProductFile>> make_specular(const ProductRequest& request, StageTimes& times) {
+  const image::Camera camera =
+      image::strip_camera(product_camera(request), image::cube_face_size(product_camera(request)));
+  const auto levels = levels_of(request, camera, times);
+  if (!levels) return levels.error();
+  const double true_lux = true_horizontal_lux(request);
+  std::vector<ProductFile> files;
+  if (request.output.format == "ktx2") {
+    auto file = cube_texture_of(levels->cubes, camera, request.output.sample_type, request.meta,
+                                request.output.orientation,
+                                {{"skylapse:roughness", list_of(levels->roughness)},
+                                 {"skylapse:filter", "GGX, alpha = roughness^2, N = V = R"}},
+                                times);
+    if (!file) return file.error();
+    file->encoding["true_horizontal_lux"] = true_lux;
+    file->encoding["sun_roughness"] = levels->sun_roughness;
+    files.push_back(*std::move(file));
+    return files;
+  }
+  for (size_t level = 0; level < levels->cubes.size(); ++level) {
+    auto made = picture_files(request, levels->cubes[level],
+                              {{"skylapse:roughness", list_of({levels->roughness[level]})},
+                               {"skylapse:filter", "GGX, alpha = roughness^2, N = V = R"}},
+                              times);
+    if (!made) return made.error();
+    const double lux = stored_lux(request, camera, levels->cubes[level]);
+    for (ProductFile& file : *made) {
+      file.encoding = {{"horizontal_lux", lux},
+                       {"true_horizontal_lux", true_lux},
+                       {"roughness", levels->roughness[level]}};
+      if (level == 0) file.encoding["sun_roughness"] = levels->sun_roughness;
+      files.push_back(std::move(file));
+    }
+  }
+  return files;
+}
+
+}  // namespace skylapse::pipeline
