@@ -10,6 +10,7 @@
 #include "core/version.h"
 #include "pipeline/library/web_page.h"
 #include "pipeline/output_view.h"
+#include "pipeline/products/dome.h"
 #include "plan/sky_model.h"
 
 namespace skylapse::pipeline {
@@ -50,6 +51,13 @@ std::string label_of(const config::Output& output) {
   return config::path_of(output).value;
 }
 
+bool leaves_disc_out(const config::Output& output) {
+  if (const auto* const image = std::get_if<config::ImageOutput>(&output))
+    return pipeline::leaves_disc_out(*image);
+  const auto* const product = std::get_if<config::ProductOutput>(&output);
+  return product != nullptr && !product->sun_disc;
+}
+
 Angle heading_of(const image::Camera& camera) {
   const glm::dvec3 forward = camera.camera_to_enu[2];
   return azimuth(Direction<Enu>::from_vector(forward));
@@ -62,9 +70,12 @@ class Gallery {
 
   Json head() const {
     const config::JobConfig& config = job_.plan.job;
-    auto sites = Json::array(), outputs = Json::array();
+    auto sites = Json::array(), outputs = Json::array(), without_disc = Json::array();
     for (const config::Site& site : config.sites) sites.push_back(site.name);
-    for (const config::Output& output : config.outputs) outputs.push_back(label_of(output));
+    for (const config::Output& output : config.outputs) {
+      outputs.push_back(label_of(output));
+      without_disc.push_back(leaves_disc_out(output));
+    }
     return {{"title", config.title},
             {"config", config.file},
             {"version", kVersion},
@@ -72,7 +83,8 @@ class Gallery {
             {"space", config.color.space},
             {"white", kLuminousEfficacy},
             {"sites", sites},
-            {"outputs", outputs}};
+            {"outputs", outputs},
+            {"without_disc", without_disc}};
   }
 
   Json shape_of_preview(const plan::Frame& frame) const {

@@ -43,11 +43,6 @@ bool has_policy(const config::ImageOutput& map) {
   return map.sample_type == output::SampleType::half_float || map.format == "hdr";
 }
 
-bool leaves_disc_out(const config::ImageOutput& map) {
-  return map.content == config::ImageContent::sky ||
-         (has_policy(map) && map.sun_policy == output::SunPolicy::split);
-}
-
 /// By what the file's values were multiplied: found from the brightest sample, in strips, as the
 /// map itself may be larger than memory.
 Result<double> scale_of(const ProductRequest& request, const Map& map, StageTimes& times) {
@@ -90,6 +85,11 @@ std::string dome_usda(const ProductRequest& request, const Map& map, double scal
 }
 
 }  // namespace
+
+bool leaves_disc_out(const config::ImageOutput& map) {
+  return map.content == config::ImageContent::sky ||
+         (has_policy(map) && map.sun_policy == output::SunPolicy::split);
+}
 
 Result<std::vector<ProductFile>> make_dome(const ProductRequest& request, StageTimes& times) {
   const auto map = map_of(request);

@@ -4,6 +4,9 @@
 
 namespace skylapse::pipeline {
 
+/// Whether the files of an output hold the sky without the sun's disc.
+bool leaves_disc_out(const config::ImageOutput& map);
+
 /// A layer with a DomeLight that names the frame's file of the image output `map_path`, turned so
 /// that the map's north is the north of the output's orientation, whatever the map's heading. Maps
 /// without the disc (content sky, sun: split) get a DistantLight beside it. A map whose values were

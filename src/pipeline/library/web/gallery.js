@@ -10,6 +10,7 @@ const absolute = path => location.protocol === "file:"
 const degrees = x => (Math.abs(x) < 0.05 ? 0 : x).toFixed(1).replace("-", "\u2212") + "\u00b0";
 const lux = x => x === null ? "" : x === 0 ? "0 lux" : x >= 1000 ? digits(x / 1000, 3) + " klux" : digits(x, 3) + " lux";
 const bytes = n => n < 1e3 ? n + " B" : n < 1e6 ? digits(n / 1e3, 3) + " kB" : n < 1e9 ? digits(n / 1e6, 3) + " MB" : digits(n / 1e9, 3) + " GB";
+const clock = (s, zone) => s.local.slice(0, 16).replace("T", " ") + (zone ? " UTC" + s.local.slice(19).replace(/^.*?(?=[+-])/, "") : "");
 const errorOf = f => f.has === undefined || !f.true ? null : f.has / f.true - 1;
 const percent = x => (x < 0 ? "\u2212" : "+") + (Math.abs(x) < 5e-6 ? "0" : digits(100 * Math.abs(x))) + " %";
 
@@ -57,7 +58,7 @@ function card(s) {
   const shape = data.preview.width && data.preview.height ? data.preview.width + "/" + data.preview.height : "2/1";
   return make("button", {class: "sky", type: "button", "data-number": s.number, on: {click: () => open(s)}},
     make("img", {src: link(s.preview), alt: "", loading: "lazy", decoding: "async", style: "aspect-ratio:" + shape}),
-    make("div", {}, make("b", {}, data.sites[s.site]), make("span", {}, make("i", {style: "font-style:normal"}, s.local.slice(0, 16))),
+    make("div", {}, make("b", {}, data.sites[s.site]), make("span", {}, make("i", {style: "font-style:normal"}, clock(s))),
       make("span", {}, make("i", {style: "font-style:normal"}, "sun " + degrees(s.sun)), make("i", {style: "font-style:normal"}, lux(s.lux)))));
 }
 function addCards() {
@@ -117,10 +118,12 @@ function fileRow(f) {
   const error = errorOf(f), button = make("button", {type: "button", on: {click: () => copy(absolute(f.path), button)}}, "Copy path");
   const rows = [make("span", {}, make("a", {href: link(f.path)}, f.path)), button,
     make("small", {}, [data.outputs[f.output], bytes(f.bytes)].join(", "))];
+  const apart = data.without_disc[f.output];  // then less light is no error
   if (error !== null)
-    rows.push(make("small", {class: Math.abs(error) > 0.005 ? "off" : null}, `level ground gets ${lux(f.has)}, by the model ${lux(f.true)}: ${percent(error)}`));
+    rows.push(make("small", {class: Math.abs(error) > 0.005 && !apart ? "off" : null},
+      `level ground gets ${lux(f.has)}, by the model ${lux(f.true)}: ${percent(error)}` + (apart ? ", the disc left out" : "")));
   else if (f.true === 0) rows.push(make("small", {}, "no light by the model"));
-  if (f.lost > 0) rows.push(make("small", {class: "off"}, `${digits(100 * f.lost)} % of the light left out`));
+  if (f.lost > 0 && !apart) rows.push(make("small", {class: "off"}, `${digits(100 * f.lost)} % of the sum of all values cut off`));
   if (f.scale !== undefined && f.scale !== 1) rows.push(make("small", {}, `values were multiplied by ${f.scale}`));
   rows.push(make("small", {}, make("code", {}, "sha256 " + f.sha256)));
   return make("li", {}, ...rows);
@@ -146,7 +149,7 @@ function open(s) {
   const close = make("button", {type: "button", id: "close", on: {click: hide}}, "Close");
   byId("detail").replaceChildren(
     make("div", {class: "top"}, step("\u2190 Before", -1), make("span", {class: "note"}, at < 0 ? "" : `${at + 1} of ${shown.length}`), step("Next \u2192", 1), close),
-    viewer(s), make("h2", {id: "detail-title"}, `${data.sites[s.site]}, ${s.local}`),
+    viewer(s), make("h2", {id: "detail-title"}, `${data.sites[s.site]}, ${clock(s, true)}`),
     make("div", {class: "facts"}, fact("sun, true elevation", degrees(s.sun)), fact("sun, apparent", degrees(s.apparent)),
       fact("sun, azimuth", degrees(s.azimuth)), fact("level ground", lux(s.lux)), fact("of it sky", lux(s.sky)), fact("facing the sun", lux(s.direct)),
       fact("turbidity", String(s.turbidity)), fact("ground albedo", s.albedo), fact("exposure", "EV " + s.ev.toFixed(1)),

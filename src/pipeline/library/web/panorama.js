@@ -5,6 +5,15 @@ function panorama(canvas, picture, start) {
   const kRadians = Math.PI / 180, kColumns = 28, kRows = 16;
   const view = {azimuth: start.azimuth, elevation: start.elevation, fov: 75};
   const context = canvas.getContext("2d");
+  // The picture with a margin of its other side, so that no edge is smoothed where it closes.
+  const kMargin = 2, source = document.createElement("canvas");
+  function load() {
+    source.width = picture.naturalWidth + 2 * kMargin;
+    source.height = picture.naturalHeight;
+    const into = source.getContext("2d");
+    for (const turn of [-1, 1, 0]) into.drawImage(picture, kMargin + turn * picture.naturalWidth, 0);
+    draw();
+  }
 
   // Where the picture shows what the canvas has at x, y (-1..1): turns from its left edge, and
   // parts of its height.
@@ -37,7 +46,7 @@ function panorama(canvas, picture, start) {
     const from = Math.floor(Math.min(a.u, b.u, c.u) - 0.002), to = Math.floor(Math.max(a.u, b.u, c.u) + 0.002);
     for (let turn = from; turn <= to; ++turn) {
       context.setTransform(xu / w, yu / w, xv / h, yv / h, x0 + xu * turn, y0 + yu * turn);
-      context.drawImage(picture, 0, 0);
+      context.drawImage(source, -kMargin, 0);
     }
     context.restore();
   }
@@ -91,8 +100,8 @@ function panorama(canvas, picture, start) {
     e.preventDefault();
     e.stopPropagation();
   });
-  if (picture.complete) draw();
-  picture.addEventListener("load", draw);
+  if (picture.complete && picture.naturalWidth) load();
+  picture.addEventListener("load", load);
   return view;
 }
 
