@@ -1,7 +1,10 @@
 #include "pipeline/frame_light.h"
 
+#include <algorithm>
+
 #include "color/rgb_space.h"
 #include "image/irradiance.h"
+#include "pipeline/coarse_picture.h"
 #include "plan/effect_planner.h"
 #include "sky/level_light.h"
 
@@ -16,13 +19,28 @@ sky::SunDisc disc_with(sky::EffectSet effects, const plan::Frame& frame, sky::Su
   return disc;
 }
 
+/// Such pictures are small: made whole, whatever rows are asked for.
+Status fill_averaged(const FrameLight& light, const image::Camera& camera, int n, int first_row,
+                     image::FrameBuffer& out) {
+  const auto whole =
+      averaged_picture(camera, n, [&](const image::Camera& fine, image::FrameBuffer& samples) {
+        return light.sky.fill(fine, light.xyz_to_rgb, 0, samples);
+      });
+  if (!whole) return whole.error();
+  std::copy_n(whole->row(first_row), out.data().size(), out.data().begin());
+  return Done{};
+}
+
 }  // namespace
 
 Status FrameLight::fill_rows(const image::Camera& camera, Disc with, int first_row,
                              image::FrameBuffer& out, StageTimes& times) const {
   {
     const StageTimer timer(times, Stage::sky);
-    const Status filled = sky.fill(camera, xyz_to_rgb, first_row, out);
+    // Paths are drawn for the pixels that were asked for.
+    const int n = sky.noise ? 1 : finer_samples(camera);
+    const Status filled = n > 1 ? fill_averaged(*this, camera, n, first_row, out)
+                                : sky.fill(camera, xyz_to_rgb, first_row, out);
     if (!filled) return filled;
   }
   if (with == Disc::with) add_disc_rows(camera, first_row, out, times);

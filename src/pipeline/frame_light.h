@@ -25,7 +25,8 @@ struct FrameLight {
   bool disc_shows = true;       // the effect is on
   sky::DiscEnergy disc_energy;  // in XYZ, whether it shows or not
   /// Fills the rows [first_row, first_row + out.height()) of the camera's picture; `out` is as wide
-  /// as that. A disc that does not show is left out in either case.
+  /// as that. A disc that does not show is left out in either case. Coarse pictures that light
+  /// scenes are means of finer ones (coarse_picture.h).
   Status fill_rows(const image::Camera& camera, Disc disc, int first_row, image::FrameBuffer& out,
                    StageTimes& times) const;
   /// Adds the disc, if it shows, to such rows. A picture of the whole upper hemisphere, which can
