@@ -9,8 +9,10 @@
 #include <tuple>
 
 #include "cli/table.h"
+#include "config/words.h"
 #include "core/parallel.h"
 #include "pipeline/promise_json.h"
+#include "pipeline/run_job.h"
 #include "plan/cost_model.h"
 #include "plan/effect_planner.h"
 
@@ -121,6 +123,17 @@ std::string atmosphere_text(const plan::Plan& plan, const plan::Cost& cost) {
   return text + "\n";
 }
 
+/// Projection and size of what an output shows; empty for a file without pixels.
+std::string shown_size(const plan::Plan& plan, const plan::Frame& frame, size_t output) {
+  const auto* product = std::get_if<config::ProductOutput>(&plan.job.outputs[output]);
+  if (product != nullptr && !product->view) return "";
+  const auto& view = plan::view_of(plan, frame, output).camera;
+  const std::string levels =
+      product != nullptr && product->levels > 0 ? fmt::format(", {} levels", product->levels) : "";
+  return fmt::format("{} {}{}", config::word_of(config::kProjectionWords, view.projection),
+                     plan::size_label(view), levels);
+}
+
 /// Each effect with the frames it is on and off for, and the reasons, numbers as a range.
 std::string effect_summary(const PlannedWork& work) {
   struct Kind {
@@ -158,6 +171,38 @@ std::string effect_summary(const PlannedWork& work) {
                     std::get<3>(key), cost_text(std::get<1>(key), kind.core_seconds, kind.bound));
   }
   return text;
+}
+
+/// What is written: each output with its files, time and bytes; the sky itself apart.
+Table output_table(const PlannedWork& work, const plan::Cost& cost) {
+  const plan::Plan& plan = work.plan;
+  Table table{{"output", "files", "core s", "bytes", "size"}, {}};
+  for (size_t o = 0; o < plan.job.outputs.size(); ++o) {
+    const config::Output& output = plan.job.outputs[o];
+    size_t files = config::is_per_frame(output) ? 0 : 1;
+    std::string size;
+    if (config::is_per_frame(output))
+      for (const long number : work.frames) {
+        const plan::Frame& frame = plan.frames[number - 1];
+        files += plan::files_of(plan, frame, o).size();
+        size = shown_size(plan, frame, o);
+      }
+    table.rows.push_back({text_cell(config::path_of(output).value),
+                          {fmt::format("{}", files), true},
+                          number_cell(cost.outputs[o].core_seconds, 2),
+                          {bytes_text(cost.outputs[o].bytes), true},
+                          text_cell(size)});
+  }
+  return table;
+}
+
+ordered_json outputs_json(const PlannedWork& work, const plan::Cost& cost) {
+  auto outputs = ordered_json::array();
+  for (size_t o = 0; o < cost.outputs.size(); ++o)
+    outputs.push_back({{"output", config::path_of(work.plan.job.outputs[o]).value},
+                       {"core_seconds", cost.outputs[o].core_seconds},
+                       {"bytes", cost.outputs[o].bytes}});
+  return outputs;
 }
 
 ordered_json atmosphere_json(const plan::Plan& plan, const plan::Cost& cost) {
@@ -208,9 +253,11 @@ std::string plan_text(const PlannedWork& work) {
     text += fmt::format("extrapolated: {} frames with the sun below the horizon\n", extrapolated);
   text += "in every frame: " + names_of(common) + "\neffects:\n" + effect_summary(work);
   for (const std::string& note : plan.notes) text += "note: " + note + "\n";
-  text += fmt::format("estimate: {} on {} cores, {} written\n",
+  text += "\n" + format_table(output_table(work, cost), TableFormat::table) + "\n";
+  text += fmt::format("estimate: {} on {} cores, {} written, {} of memory for pictures\n",
                       duration_text(cost.core_seconds / available_cores()), available_cores(),
-                      bytes_text(cost.bytes));
+                      bytes_text(cost.bytes),
+                      bytes_text(pipeline::picture_memory(plan, available_cores())));
   return text;
 }
 
@@ -231,7 +278,8 @@ ordered_json plan_json(const PlannedWork& work) {
     }
     auto files = ordered_json::array();
     for (size_t o = 0; o < plan.job.outputs.size(); ++o)
-      for (const auto& file : plan::files_of(plan, frame, o)) files.push_back(file);
+      if (!std::holds_alternative<config::LibraryOutput>(plan.job.outputs[o]))
+        for (const auto& file : plan::files_of(plan, frame, o)) files.push_back(file);
     frames.push_back({{"frame", number},
                       {"site", plan.job.sites[frame.site].name},
                       {"utc", format_utc(frame.instant, 3)},
@@ -253,7 +301,11 @@ ordered_json plan_json(const PlannedWork& work) {
           {"promise", pipeline::promise_json(plan)},
           {"atmosphere", atmosphere_json(plan, cost)},
           {"notes", plan.notes},
-          {"estimate", {{"core_seconds", cost.core_seconds}, {"bytes", cost.bytes}}},
+          {"estimate",
+           {{"core_seconds", cost.core_seconds},
+            {"bytes", cost.bytes},
+            {"picture_memory_bytes", pipeline::picture_memory(plan, available_cores())},
+            {"outputs", outputs_json(work, cost)}}},
           {"frames", frames}};
 }
 

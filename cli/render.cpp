@@ -31,7 +31,8 @@ std::string summary_text(const pipeline::RunSummary& summary, const std::string&
     for (int i = 0; i < pipeline::kStageCount; ++i)
       text += fmt::format(" {} {:.1f} ms", pipeline::kStageNames[i],
                           summary.times.ms[i] / double(summary.rendered));
-    text += fmt::format("; movies {:.1f} s", summary.movie_seconds);
+    text += fmt::format("; movies {:.1f} s, gallery and sheets {:.1f} s", summary.movie_seconds,
+                        summary.library_seconds);
   }
   for (const std::string& note : summary.notes) text += "\nnote: " + note;
   return text;
@@ -41,10 +42,15 @@ nlohmann::ordered_json summary_json(const pipeline::RunSummary& summary) {
   nlohmann::ordered_json stages;
   for (int i = 0; i < pipeline::kStageCount; ++i)
     stages[std::string(pipeline::kStageNames[i])] = summary.times.ms[i];
-  return {{"rendered", summary.rendered}, {"kept", summary.kept},
-          {"complete", summary.complete}, {"bytes_written", summary.bytes_written},
-          {"seconds", summary.seconds},   {"movie_seconds", summary.movie_seconds},
-          {"stage_milliseconds", stages}, {"notes", summary.notes}};
+  return {{"rendered", summary.rendered},
+          {"kept", summary.kept},
+          {"complete", summary.complete},
+          {"bytes_written", summary.bytes_written},
+          {"seconds", summary.seconds},
+          {"movie_seconds", summary.movie_seconds},
+          {"library_seconds", summary.library_seconds},
+          {"stage_milliseconds", stages},
+          {"notes", summary.notes}};
 }
 
 ExitCode run_render(const RenderArguments& arguments, const ConsoleOptions& console) {

@@ -36,12 +36,6 @@ const OutputItem::Endings kEndings{{"exr", "exr"},  {"hdr", "hdr"},  {"png", "pn
                                    {"jpg", "jpg"},  {"jpeg", "jpg"}, {"tif", "tif"},
                                    {"tiff", "tif"}, {"ktx2", "ktx2"}};
 
-std::string_view type_word(SampleType type) {
-  for (const auto& [word, value] : kSampleTypeWords)
-    if (value == type) return word;
-  return {};
-}
-
 /// Reads one image output, key by key.
 class ImageReader {
  public:
@@ -89,7 +83,7 @@ class ImageReader {
     }
     std::string allowed;
     for (const SampleType t : types)
-      allowed += (allowed.empty() ? "" : ", ") + std::string(type_word(t));
+      allowed += (allowed.empty() ? "" : ", ") + std::string(word_of(kSampleTypeWords, t));
     item_.context.errors.add(
         section_.place_of("type"),
         fmt::format("{} = {} cannot be stored in {}", section_.path_of("type"), *word, out_.format),

@@ -134,6 +134,14 @@ std::vector<std::string_view> words_of(const Words<T, N>& table) {
   return words;
 }
 
+/// The first word of a value.
+template <class T, size_t N>
+std::string_view word_of(const Words<T, N>& table, const T& value) {
+  for (const auto& entry : table)
+    if (entry.second == value) return entry.first;
+  return {};
+}
+
 template <class T, size_t N>
 std::optional<T> value_of(const Words<T, N>& table, std::string_view word) {
   for (const auto& entry : table)

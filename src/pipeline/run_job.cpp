@@ -1,7 +1,10 @@
 #include "pipeline/run_job.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <mutex>
 #include <set>
 
@@ -23,12 +26,33 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// What the sun policy `clip` cost.
+struct Clipped {
+  long files = 0;
+  double percent = 0;  // the most that one of them lost
+  std::string path;    // that one
+
+  void take(const LedgerEntry& entry) {
+    const auto share = entry.encoding.find("clipped_fraction");
+    if (share == entry.encoding.end()) return;
+    const auto error = entry.encoding.find("error_percent");
+    const bool weighed = error != entry.encoding.end();
+    merge({1, weighed ? std::max(0.0, -error->second) : 100 * share->second, entry.path});
+  }
+  void merge(const Clipped& other) {
+    files += other.files;
+    if (other.files > 0 && (path.empty() || other.percent > percent))
+      percent = other.percent, path = other.path;
+  }
+};
+
 /// One frame on its way: which of its outputs are missing, and what came of it.
 struct Task {
   long number = 0;
   std::vector<size_t> missing;
   StageTimes times;
   uintmax_t bytes = 0;
+  Clipped clipped;
   std::optional<Error> error;
 };
 
@@ -40,6 +64,7 @@ class Collector {
 
   [[nodiscard]] bool failed() const { return failed_.load(); }
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+  [[nodiscard]] const Clipped& clipped() const { return clipped_; }
 
   void take(const Task& task) {
     if (task.error) {
@@ -50,6 +75,7 @@ class Collector {
     task.missing.empty() ? ++summary_.kept : ++summary_.rendered;
     summary_.times += task.times;
     summary_.bytes_written += task.bytes;
+    clipped_.merge(task.clipped);
     if (job_.options.on_progress)
       job_.options.on_progress({summary_.kept + summary_.rendered, long(job_.options.frames.size()),
                                 summary_.kept, seconds_since(start_), "frames"});
@@ -61,6 +87,7 @@ class Collector {
   Clock::time_point start_;
   std::atomic<bool> failed_ = false;
   std::optional<Error> error_;
+  Clipped clipped_;
 };
 
 void find_missing(const JobContext& job, Task& task) {
@@ -88,6 +115,7 @@ void run_task(const JobContext& job, Task& task) {
   const auto fingerprint_of = [&](size_t output) { return job.fingerprint(frame, output); };
   const auto record = [&](const LedgerEntry& entry) {
     task.bytes += entry.bytes;
+    task.clipped.take(entry);
     return job.ledger.record(entry);
   };
   const auto keep_error = [&](const Status& status) {
@@ -98,13 +126,15 @@ void run_task(const JobContext& job, Task& task) {
     if (!keep_error(write_view(source, group, fingerprint_of, of_frame, record, task.times)))
       return;
   for (const size_t o : task.missing) {
-    if (!std::holds_alternative<config::ProductOutput>(job.plan.job.outputs[o])) continue;
+    const bool texture = is_texture(job.plan.job.outputs[o]);
+    if (!texture && !std::holds_alternative<config::ProductOutput>(job.plan.job.outputs[o]))
+      continue;
     if (job.stopped()) {
       task.error = interrupted();
       return;
     }
-    if (!keep_error(write_product(source, o, fingerprint_of(o), of_frame, record, task.times)))
-      return;
+    const auto& write = texture ? write_texture : write_product;
+    if (!keep_error(write(source, o, fingerprint_of(o), of_frame, record, task.times))) return;
   }
 }
 
@@ -124,6 +154,12 @@ std::optional<Error> render_all(const JobContext& job, RunSummary& summary,
   run_pipeline<Task>(
       size_t(frames_in_flight(job.plan, threads)), feed, [&](Task& task) { run_task(job, task); },
       [&](Task& task) { collector.take(task); }, FinishOrder::as_done);
+  if (const Clipped& clipped = collector.clipped(); clipped.files > 0)
+    summary.notes.push_back(
+        fmt::format("sun: clip cut light off in {} file{}, at most {:.3g} % ({}); sun: float, "
+                    "split or scale keep "
+                    "it",
+                    clipped.files, clipped.files == 1 ? "" : "s", clipped.percent, clipped.path));
   if (collector.error()) return collector.error();
   if (job.stopped()) return interrupted();
   return {};
@@ -186,21 +222,34 @@ bool JobContext::recorded(const plan::Frame& frame, size_t output) const {
                      [&](const std::string& file) { return ledger.find(file, print); });
 }
 
-int frames_in_flight(const plan::Plan& plan, int threads) {
-  constexpr double kBudgetBytes = 1.5 * 1024 * 1024 * 1024;
+/// Memory of the largest picture that is whole in memory: a strip of it, but for drawn paths,
+/// textures and products.
+static double largest_picture_bytes(const plan::Plan& plan) {
+  const double strip = plan.model == config::SkyModel::reference
+                           ? std::numeric_limits<double>::max()
+                           : double(kStripPixels);
   double largest = 1;
-  const auto count = [&](const config::CameraConfig& camera) {
-    largest = std::max(largest, double(camera.camera.width) * camera.camera.height);
+  const auto count = [&](const config::CameraConfig& camera, bool whole) {
+    const double pixels = double(camera.camera.width) * camera.camera.height;
+    largest = std::max(largest, whole ? pixels : std::min(pixels, strip));
   };
-  for (const auto& camera : plan.job.cameras) count(camera);
+  for (const auto& camera : plan.job.cameras) count(camera, false);
   for (const config::Output& output : plan.job.outputs) {
     const auto* image = std::get_if<config::ImageOutput>(&output);
     const auto* product = std::get_if<config::ProductOutput>(&output);
-    if (image != nullptr && image->own_view) count(*image->own_view);
-    if (product != nullptr && product->view) count(*product->view);
+    if (image != nullptr && image->own_view) count(*image->own_view, is_texture(output));
+    if (product != nullptr && product->view) count(*product->view, true);
   }
-  if (plan.model != config::SkyModel::reference) largest = std::min(largest, double(kStripPixels));
-  return std::clamp(int(kBudgetBytes / (largest * kBytesPerPixel)), 1, threads + 1);
+  return largest * kBytesPerPixel;
+}
+
+int frames_in_flight(const plan::Plan& plan, int threads) {
+  constexpr double kBudgetBytes = 1.5 * 1024 * 1024 * 1024;
+  return std::clamp(int(kBudgetBytes / largest_picture_bytes(plan)), 1, threads + 1);
+}
+
+double picture_memory(const plan::Plan& plan, int threads) {
+  return frames_in_flight(plan, threads) * largest_picture_bytes(plan);
 }
 
 Result<RunSummary> run_job(const plan::Plan& plan, const RunOptions& as_asked) {

@@ -48,5 +48,7 @@ Result<RunSummary> run_job(const plan::Plan& plan, const RunOptions& options);
 
 /// Frames that may be in memory at once: enough for all threads, within 1.5 GiB of pixels.
 int frames_in_flight(const plan::Plan& plan, int threads);
+/// Bytes of their pixels, at most.
+double picture_memory(const plan::Plan& plan, int threads);
 
 }  // namespace skylapse::pipeline

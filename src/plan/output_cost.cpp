@@ -37,9 +37,10 @@ OutputCost cost_of_image(const config::ImageOutput& image, const config::CameraC
   return {pixels * rate.nanoseconds * 1e-9, pixels * rate.bytes};
 }
 
-/// Filtering of a pixel by a few hundred samples, of a pixel of irradiance by harmonics or sums.
-constexpr double kSpecularNs = 3e4, kIrradianceNs = 2e4;
-constexpr double kGatherSeconds = 0.05;  // the light itself, before it is filtered
+/// Of products, as the milliseconds in manifests have them: gathering the light of the whole
+/// sphere, filtering it for reflection, and a pixel of each.
+constexpr double kGatherSeconds = 0.025, kSpecularSeconds = 0.4;
+constexpr double kSpecularNs = 1600, kIrradianceNs = 1300;
 constexpr double kTextBytes = 2e3;
 
 OutputCost cost_of_product(const config::ProductOutput& product) {
@@ -51,7 +52,8 @@ OutputCost cost_of_product(const config::ProductOutput& product) {
       const double pixels = levels * pixels_of(product.view->camera);
       const double bytes = encoding(product.format, product.sample_type).bytes;
       const double mips = product.format == "ktx2" ? 3. / 4 : 1;  // counted in `levels`
-      return {kGatherSeconds + 1e-9 * pixels * (specular ? kSpecularNs : kIrradianceNs),
+      return {(specular ? kSpecularSeconds : kGatherSeconds) +
+                  1e-9 * pixels * (specular ? kSpecularNs : kIrradianceNs),
               pixels * bytes * mips};
     }
     case ProductKind::harmonics:

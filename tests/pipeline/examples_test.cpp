@@ -1,4 +1,5 @@
 // Every example of configs/ renders, small.
+#include "image/camera/cube.h"
 #include "pipeline/job_fixture.h"
 
 using namespace skylapse;
@@ -30,18 +31,27 @@ std::vector<long> quick_frames(plan::Plan& plan) {
   return few;
 }
 
-/// Shrinks the cameras to about 64 pixels, shapes kept.
+/// About 64 pixels, shape kept.
+void shrink(image::Camera& c) {
+  const int divisor = std::max(1, std::max(c.width, c.height) / 96);
+  if (c.projection == image::Projection::cube) {
+    const int face = 16, now = image::cube_face_size(c);
+    c.width = c.width / now * face, c.height = c.height / now * face;
+  } else {
+    c.width = std::max(2, c.width / divisor), c.height = std::max(2, c.height / divisor);
+  }
+}
+
+/// Shrinks all that is looked at.
 void shrink(plan::Plan& plan) {
-  for (auto& camera : plan.job.cameras) {
-    image::Camera& c = camera.camera;
-    const int divisor = std::max(1, std::max(c.width, c.height) / 96);
-    if (c.projection == image::Projection::cube) {
-      const bool vertical = c.cube_layout == image::CubeLayout::vertical_strip;
-      c.width = vertical ? 16 : 96, c.height = vertical ? 96 : 16;
-      if (c.cube_layout == image::CubeLayout::cross) c.width = 64, c.height = 48;
-    } else {
-      c.width = std::max(2, c.width / divisor), c.height = std::max(2, c.height / divisor);
-    }
+  for (auto& camera : plan.job.cameras) shrink(camera.camera);
+  for (config::Output& output : plan.job.outputs) {
+    if (auto* image = std::get_if<config::ImageOutput>(&output); image && image->own_view)
+      shrink(image->own_view->camera);
+    auto* product = std::get_if<config::ProductOutput>(&output);
+    if (product == nullptr || !product->view) continue;
+    shrink(product->view->camera);
+    product->levels = std::min(product->levels, 3);  // faces of 16, 8 and 4 pixels
   }
 }
 
