@@ -17,7 +17,7 @@ def find_chromium():
 class Browser:
     """Chromium behind a pair of pipes; messages are JSON, each ended by a null byte."""
 
-    def __init__(self, program, profile):
+    def __init__(self, program, profile, flags=()):
         to_child, self.out = os.pipe()
         self.inp, from_child = os.pipe()
 
@@ -30,7 +30,7 @@ class Browser:
         self.process = subprocess.Popen(
             [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--remote-debugging-pipe",
              "--disable-dev-shm-usage", "--disable-background-networking", "--no-first-run",
-             "--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={profile}", "about:blank"],
+             "--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={profile}", *flags, "about:blank"],
             preexec_fn=wire, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_child)
         os.close(from_child)
