@@ -46,10 +46,7 @@ Status add_mirrored_disc(const ProductRequest& request, const image::Camera& cam
   image::FrameBuffer& cube = levels.cubes.front();
   image::FrameBuffer with = cube;
   const image::Camera view = image::strip_camera(camera, cube.width());
-  {
-    const StageTimer timer(times, Stage::disc);
-    sky::add_sun_disc(view, request.light.disc, with);
-  }
+  request.light.add_disc_rows(view, 0, with, times);
   if (is_half(request) && output::exceeds_half(with)) {
     const StageTimer timer(times, Stage::product);
     image::add_filtered_lights(view, disc, alpha, cube);
