@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,39 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+/// 0 or the errno that stopped it.
+int hash_all(int descriptor, FileHash& all) {
+  constexpr size_t kPiece = size_t{1} << 20;
+  std::vector<std::byte> piece(kPiece);
+  Sha256 hash;
+  for (;;) {
+    const ssize_t n = ::pread(descriptor, piece.data(), piece.size(), off_t(all.bytes));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return errno;
+    if (n == 0) break;
+    hash.update(std::span(piece).first(size_t(n)));
+    all.bytes += uintmax_t(n);
+  }
+  all.sha256 = hash.hex();
+  return 0;
+}
+
 }  // namespace
+
+Result<FileHash> hash_of_file(const std::filesystem::path& path) {
+  const auto failure = [&](int error_number) {
+    return Error{.code = ErrorCode::missing_input,
+                 .message = "cannot read '" + path.string() +
+                            "': " + std::generic_category().message(error_number)};
+  };
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return failure(errno);
+  FileHash all;
+  const int failed = hash_all(descriptor, all);
+  ::close(descriptor);
+  if (failed != 0) return failure(failed);
+  return all;
+}
 
 StreamedFile::StreamedFile(std::filesystem::path path, std::filesystem::path temporary,
                            int descriptor)
@@ -72,29 +105,12 @@ Status StreamedFile::status() const {
   return Done{};
 }
 
-/// Read again: a writer may have gone back to fill in its tables.
-Result<StreamedFile::Published> StreamedFile::hashed() {
-  constexpr size_t kPiece = size_t{1} << 20;
-  std::vector<std::byte> piece(kPiece);
-  Sha256 hash;
-  Published all;
-  for (;;) {
-    const ssize_t n = ::pread(descriptor_, piece.data(), piece.size(), off_t(all.bytes));
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return write_error(path_, errno);
-    if (n == 0) break;
-    hash.update(std::span(piece).first(size_t(n)));
-    all.bytes += uintmax_t(n);
-  }
-  all.sha256 = hash.hex();
-  return all;
-}
-
-Result<StreamedFile::Published> StreamedFile::publish() {
+Result<FileHash> StreamedFile::publish() {
   const Stopwatch watch(milliseconds_);
   if (const Status so_far = status(); !so_far) return so_far.error();
-  auto all = hashed();
-  if (!all) return all;
+  // Read again: a writer may have gone back to fill in its tables.
+  FileHash all;
+  if (const int failed = hash_all(descriptor_, all)) return write_error(path_, failed);
   // Delayed writes report here. EINTR counts as closed on Linux.
   const int closed = ::close(std::exchange(descriptor_, -1));
   if (closed != 0 && errno != EINTR) {

@@ -10,6 +10,13 @@
 
 namespace skylapse::output {
 
+struct FileHash {
+  std::string sha256;
+  uintmax_t bytes = 0;
+};
+/// Of a file of any size, a piece at a time. Errors: missing_input.
+Result<FileHash> hash_of_file(const std::filesystem::path& path);
+
 /// A hidden temporary beside `path` until it is published; removed if it never is.
 class StreamedFile final : public ByteSink {
  public:
@@ -21,13 +28,9 @@ class StreamedFile final : public ByteSink {
 
   bool write_at(uint64_t offset, std::span<const std::byte> bytes) override;
 
-  struct Published {
-    std::string sha256;
-    uintmax_t bytes = 0;
-  };
   /// Hashes what was written and renames it to its path. Errors: write_failed, also of any
   /// write_at before.
-  Result<Published> publish();
+  Result<FileHash> publish();
 
   /// The error of the first write that failed, if one did.
   [[nodiscard]] Status status() const;
@@ -36,7 +39,6 @@ class StreamedFile final : public ByteSink {
 
  private:
   StreamedFile(std::filesystem::path path, std::filesystem::path temporary, int descriptor);
-  Result<Published> hashed();
   std::filesystem::path path_, temporary_;
   int descriptor_ = -1;
   int error_number_ = 0;

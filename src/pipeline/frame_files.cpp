@@ -14,6 +14,7 @@
 #include "pipeline/fingerprint.h"
 #include "pipeline/image_file.h"
 #include "pipeline/job_context.h"
+#include "pipeline/products/cube_texture.h"
 #include "pipeline/products/product.h"
 #include "pipeline/reference_sky.h"
 
@@ -186,7 +187,7 @@ std::vector<ViewGroup> group_by_view(const plan::Plan& plan, const plan::Frame& 
   std::vector<ViewGroup> groups;
   for (const size_t o : outputs) {
     const auto* image = std::get_if<config::ImageOutput>(&plan.job.outputs[o]);
-    if (image == nullptr) continue;
+    if (image == nullptr || is_texture(plan.job.outputs[o])) continue;
     const OutputView view = view_of_output(plan, frame, *image);
     const auto known = std::find_if(groups.begin(), groups.end(), [&](const ViewGroup& group) {
       return same_camera(group.view.camera.camera, view.camera.camera) &&
@@ -256,6 +257,44 @@ Status write_view(const FrameSource& source, const ViewGroup& group,
     }
   }
   return Done{};
+}
+
+bool is_texture(const config::Output& output) {
+  const auto* image = std::get_if<config::ImageOutput>(&output);
+  return image != nullptr && image->format == "ktx2";
+}
+
+Status write_texture(const FrameSource& source, size_t index, const std::string& fingerprint,
+                     const StageTimes& before, const Record& record, StageTimes& times) {
+  const auto& output = std::get<config::ImageOutput>(source.plan.job.outputs[index]);
+  const image::Camera camera = view_of_output(source.plan, source.frame, output).camera.camera;
+  StageTimes own;
+  const bool whole = output.content == config::ImageContent::radiance;
+  auto sky = source.light.picture(camera, Disc::without, own);
+  if (!sky) return sky.error();
+  image::FrameBuffer strip = *sky;
+  if (whole) source.light.add_disc_rows(camera, 0, strip, own);
+  auto meta = metadata_of(source.plan, source.frame, source.light, fingerprint);
+  output::SampleType type = output.sample_type;
+  if (type == output::SampleType::half_float) {
+    const auto policy = output::apply_sun_policy(strip, output.sun_policy, &*sky);
+    if (!policy) return at_sun_policy(output, policy.error());
+    meta.sun_policy = *policy;
+    if (policy->policy == output::SunPolicy::float32 && policy->pixels_beyond_half > 0)
+      type = output::SampleType::float32;
+  }
+  auto made = make_cube_texture(strip, camera, type, meta, output.orientation, own);
+  if (!made) return made.error();
+  if (meta.sun_policy) made->encoding.merge(policy_record(*meta.sun_policy));
+  made->encoding["stored_bits"] = type == output::SampleType::half_float ? 16 : 32;
+  add_light_record(source, output, made->encoding["horizontal_lux"], made->encoding);
+  const auto file = plan::files_of(source.plan, source.frame, index).front();
+  auto entry = write_whole(source, file, fingerprint, *made, own);
+  if (!entry) return entry.error();
+  times += own;
+  own += before;
+  entry->times = own;
+  return record(*std::move(entry));
 }
 
 Status write_product(const FrameSource& source, size_t index, const std::string& fingerprint,

@@ -65,6 +65,12 @@ Status write_view(const FrameSource& source, const ViewGroup& group,
                   const FingerprintOf& fingerprint_of, const StageTimes& before,
                   const Record& record, StageTimes& times, size_t strip_pixels = kStripPixels);
 
+/// Renders, filters and writes one cube texture: an image output of the format ktx2.
+Status write_texture(const FrameSource& source, size_t output, const std::string& fingerprint,
+                     const StageTimes& before, const Record& record, StageTimes& times);
+/// Whether an output is one.
+bool is_texture(const config::Output& output);
+
 /// Makes and writes one product of a frame.
 Status write_product(const FrameSource& source, size_t output, const std::string& fingerprint,
                      const StageTimes& before, const Record& record, StageTimes& times);

@@ -40,7 +40,46 @@ size_t bytes_of(SampleType type) {
   return sizeof(float);
 }
 
+/// Formats that cannot hold every disc, where the policy says what becomes of it.
+bool obeys_sun_policy(const config::ImageOutput& output) {
+  if (output.display || output.view || output.content == config::ImageContent::standard_error)
+    return false;
+  return output.sample_type == SampleType::half_float ||
+         (output.format == "hdr" && output.sun_policy != SunPolicy::float32);
+}
+
 }  // namespace
+
+bool leaves_disc_apart(const config::ImageOutput& output) {
+  return output.content == config::ImageContent::radiance && obeys_sun_policy(output) &&
+         output.sun_policy == SunPolicy::split;
+}
+
+Error at_sun_policy(const config::ImageOutput& output, Error error) {
+  error.span = output.sun_policy_span.line > 0 ? output.sun_policy_span : output.path.span;
+  return error;
+}
+
+std::map<std::string, double> policy_record(const output::SunPolicyRecord& policy) {
+  std::map<std::string, double> record{{"scale", policy.scale},
+                                       {"pixels_beyond_half", double(policy.pixels_beyond_half)},
+                                       {"lost_fraction", policy.lost_fraction}};
+  if (policy.policy == SunPolicy::clip && policy.pixels_beyond_half > 0)
+    record["clipped_fraction"] = policy.lost_fraction;
+  return record;
+}
+
+void add_light_record(const FrameSource& source, const config::ImageOutput& output, double held,
+                      std::map<std::string, double>& record) {
+  const TrueLight light = true_light(source.light);
+  const bool has_sun = output.content == config::ImageContent::radiance && source.light.disc_shows;
+  const double whole = light.sky + (has_sun ? light.sun : 0.0);
+  const double apart = has_sun && leaves_disc_apart(output) ? light.sun : 0.0;
+  record["horizontal_lux"] = held;
+  record["true_horizontal_lux"] = whole;
+  if (apart > 0) record["sun_apart_horizontal_lux"] = apart;
+  if (whole > 0) record["error_percent"] = 100 * ((held + apart) / whole - 1);
+}
 
 ImageFile::ImageFile(const FrameSource& source, size_t output, const OutputView& view,
                      std::string fingerprint)
@@ -52,15 +91,10 @@ ImageFile::ImageFile(const FrameSource& source, size_t output, const OutputView&
       files_(plan::files_of(source.plan, source.frame, output)),
       type_(output_.sample_type) {}
 
-bool ImageFile::needs_survey() const {
-  if (display_ != nullptr || output_.content == config::ImageContent::standard_error) return false;
-  return output_.sample_type == SampleType::half_float ||
-         (output_.format == "hdr" && output_.sun_policy != SunPolicy::float32);
-}
+bool ImageFile::needs_survey() const { return obeys_sun_policy(output_); }
 
 bool ImageFile::needs_sky() const {
-  return output_.content == config::ImageContent::sky ||
-         (needs_survey() && output_.sun_policy == SunPolicy::split);
+  return output_.content == config::ImageContent::sky || leaves_disc_apart(output_);
 }
 
 bool ImageFile::is_weighed() const {
@@ -95,9 +129,7 @@ Status ImageFile::open() {
   if (needs_survey()) {
     auto decided = output::decide_sun_policy(survey_, output_.sun_policy);
     if (!decided) {
-      Error error = decided.error();
-      error.span = output_.sun_policy_span.line > 0 ? output_.sun_policy_span : output_.path.span;
-      return error;
+      return at_sun_policy(output_, decided.error());
     }
     policy_ = *decided;
     if (policy_->policy == SunPolicy::float32 && policy_->pixels_beyond_half > 0)
@@ -191,25 +223,14 @@ Status ImageFile::add(const PictureStrip& strip) {
 
 std::map<std::string, double> ImageFile::encoding_record() const {
   std::map<std::string, double> record;
-  if (policy_)
-    record = {{"scale", policy_->scale},
-              {"pixels_beyond_half", double(policy_->pixels_beyond_half)},
-              {"lost_fraction", policy_->lost_fraction}};
+  if (policy_) record = policy_record(*policy_);
   if (output_.sample_type == SampleType::half_float && display_ == nullptr)
     record["stored_bits"] = type_ == SampleType::half_float ? 16 : 32;
   if (!is_weighed() || !image::sees_upper_hemisphere(view_.camera.camera)) return record;
   const auto space = color::rgb_space_from_name(source_.plan.job.color.space);
   const glm::dvec3 xyz = color::rgb_to_xyz(*space) * irradiance_;
   const double held = xyz.y * kLuminousEfficacy / (policy_ ? policy_->scale : 1.0);
-  const TrueLight light = true_light(source_.light);
-  const bool has_sun =
-      output_.content == config::ImageContent::radiance && source_.light.disc_shows;
-  const double whole = light.sky + (has_sun ? light.sun : 0.0);
-  const double apart = has_sun && needs_sky() ? light.sun : 0.0;
-  record["horizontal_lux"] = held;
-  record["true_horizontal_lux"] = whole;
-  if (apart > 0) record["sun_apart_horizontal_lux"] = apart;
-  if (whole > 0) record["error_percent"] = 100 * ((held + apart) / whole - 1);
+  add_light_record(source_, output_, held, record);
   return record;
 }
 

@@ -22,6 +22,20 @@ struct PictureStrip {
   std::optional<image::LevelWeights> weights;  // if the picture lights the level ground
 };
 
+/// Whether a file of the output is written without the disc that the picture has.
+bool leaves_disc_apart(const config::ImageOutput& output);
+
+/// An error of the sun policy, at the place in the config that chose it.
+Error at_sun_policy(const config::ImageOutput& output, Error error);
+
+/// What the sun policy did, for the manifest.
+std::map<std::string, double> policy_record(const output::SunPolicyRecord& policy);
+
+/// Adds to a file's record what it shines onto level ground, `held` in lux, beside what the sky of
+/// the frame does.
+void add_light_record(const FrameSource& source, const config::ImageOutput& output, double held,
+                      std::map<std::string, double>& record);
+
 class ImageFile {
  public:
   ImageFile(const FrameSource& source, size_t output, const OutputView& view,

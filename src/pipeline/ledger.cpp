@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "core/sha256.h"
 #include "output/atomic_file.h"
 #include "output/signal_guard.h"
+#include "output/streamed_file.h"
 
 namespace skylapse::pipeline {
 namespace {
@@ -123,8 +123,10 @@ std::optional<LedgerEntry> Ledger::finished(const std::string& path,
                                             const std::string& fingerprint) const {
   const auto entry = find(path, fingerprint);
   if (!entry) return {};
-  const auto bytes = output::read_file(output_folder_ / path);
-  if (!bytes || bytes->size() != entry->bytes || sha256_hex(*bytes) != entry->sha256) return {};
+  std::error_code missing;
+  if (std::filesystem::file_size(output_folder_ / path, missing) != entry->bytes) return {};
+  const auto hash = output::hash_of_file(output_folder_ / path);
+  if (!hash || hash->bytes != entry->bytes || hash->sha256 != entry->sha256) return {};
   return entry;
 }
 
