@@ -40,6 +40,20 @@ TEST(ProbeBaseline, CieIsRelativeToItsZenithAsInTheTable) {
   EXPECT_DOUBLE_EQ(luminance(outcome, 3), luminance(outcome, 4));  // uniform
 }
 
+TEST(Probe, OptionsOfAnotherModelAreRefused) {
+  const std::vector<std::vector<std::string>> cases{
+      {"preetham", "--samples", "10"},         {"hosek-wilkie", "--seed", "2"},
+      {"cie", "--atmosphere", "a.yaml"},       {"reference", "--level", "fine"},
+      {"reference", "--precision", "double"},  {"single-scattering", "--level", "low"},
+      {"bruneton", "--relative-error", "0.01"}};
+  for (const auto& c : cases) {
+    const auto outcome = run({"probe", "--model", c[0], c[1], c[2], "--batch", "-"}, {.input = ""});
+    EXPECT_EQ(outcome.exit_code, 3) << c[0] << ' ' << c[1];
+    EXPECT_NE(outcome.err.find(c[1] + ": has no effect on " + c[0]), std::string::npos)
+        << outcome.err;
+  }
+}
+
 TEST(ProbeBaseline, WhatTheyDoNotKnowIsRefused) {
   const auto spectral = probe("preetham", kHead + "\n2.5,0,60,60,90,550,spectral\n");
   EXPECT_EQ(spectral.exit_code, 3);
