@@ -34,6 +34,7 @@ std::optional<size_t> lossless_source(const plan::Plan& plan, const config::Movi
   for (size_t o = 0; o < plan.job.outputs.size(); ++o) {
     const auto* image = std::get_if<config::ImageOutput>(&plan.job.outputs[o]);
     if (image == nullptr || (image->format != "png" && image->format != "tif")) continue;
+    if (image->own_view || image->content != config::ImageContent::radiance) continue;
     const bool displayed = image->display || image->view;
     if (displayed && image->sample_type == output::SampleType::u8 &&
         image->display.value_or("") == movie.display.value_or("") &&
