@@ -6,21 +6,25 @@ namespace skylapse::image {
 namespace {
 
 constexpr glm::dvec3 kX{1, 0, 0}, kY{0, 1, 0}, kZ{0, 0, 1};
+/// Without the zeros of a minus sign.
+constexpr glm::dvec3 against(const glm::dvec3& v) { return {0 - v.x, 0 - v.y, 0 - v.z}; }
 constexpr Angle kNorth = 0 * deg, kEast = 90 * deg, kSouth = 180 * deg, kWest = 270 * deg;
 
 /// OpenGL's lookup vector is left-handed. three.js and glTF viewers mirror theirs in x; the camera
 /// heads for where its -z is, north (of Unity: south). Where a program has no cubes of its own, the
 /// strip turns with the lat-long map.
 constexpr std::array<OrientationConvention, 9> kConventions{{
-    {Orientation::openexr, "openexr", -kX, kZ, kY, kNorth, false, kNorth, CubeOrder::openexr},
-    {Orientation::usd, "usd", kX, -kZ, kY, kSouth, false, kSouth, CubeOrder::openexr},
+    {Orientation::openexr, "openexr", against(kX), kZ, kY, kNorth, false, kNorth,
+     CubeOrder::openexr},
+    {Orientation::usd, "usd", kX, against(kZ), kY, kSouth, false, kSouth, CubeOrder::openexr},
     {Orientation::blender, "blender", kX, kY, kZ, kEast, false, kEast, CubeOrder::openexr},
-    {Orientation::three, "three", kX, -kZ, kY, kEast, false, kNorth, CubeOrder::opengl},
-    {Orientation::gltf, "gltf", kX, -kZ, kY, kEast, false, kNorth, CubeOrder::opengl},
-    {Orientation::unreal, "unreal", kX, -kY, kZ, kNorth, false, kNorth, CubeOrder::openexr},
+    {Orientation::three, "three", kX, against(kZ), kY, kEast, false, kNorth, CubeOrder::opengl},
+    {Orientation::gltf, "gltf", kX, against(kZ), kY, kEast, false, kNorth, CubeOrder::opengl},
+    {Orientation::unreal, "unreal", kX, against(kY), kZ, kNorth, false, kNorth, CubeOrder::openexr},
     {Orientation::unity, "unity", kX, kZ, kY, kEast, false, kSouth, CubeOrder::opengl},
     {Orientation::pbrt, "pbrt", kX, kY, kZ, kWest, true, kWest, CubeOrder::openexr},
-    {Orientation::mitsuba, "mitsuba", kX, -kZ, kY, kSouth, false, kSouth, CubeOrder::openexr},
+    {Orientation::mitsuba, "mitsuba", kX, against(kZ), kY, kSouth, false, kSouth,
+     CubeOrder::openexr},
 }};
 
 }  // namespace

@@ -147,6 +147,7 @@ class Gallery {
     };
     add("has", "horizontal_lux");
     add("true", "true_horizontal_lux");
+    add("error", "error_percent");
     add("lost", "lost_fraction");
     add("scale", "scale");
     return file;

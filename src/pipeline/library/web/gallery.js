@@ -11,7 +11,8 @@ const degrees = x => (Math.abs(x) < 0.05 ? 0 : x).toFixed(1).replace("-", "\u221
 const lux = x => x === null ? "" : x === 0 ? "0 lux" : x >= 1000 ? digits(x / 1000, 3) + " klux" : digits(x, 3) + " lux";
 const bytes = n => n < 1e3 ? n + " B" : n < 1e6 ? digits(n / 1e3, 3) + " kB" : n < 1e9 ? digits(n / 1e6, 3) + " MB" : digits(n / 1e9, 3) + " GB";
 const clock = (s, zone) => s.local.slice(0, 16).replace("T", " ") + (zone ? " UTC" + s.local.slice(19).replace(/^.*?(?=[+-])/, "") : "");
-const errorOf = f => f.has === undefined || !f.true ? null : f.has / f.true - 1;
+// Of a map without disc: from its sky alone.
+const errorOf = f => f.error !== undefined ? f.error / 100 : f.has === undefined || !f.true ? null : f.has / f.true - 1;
 const percent = x => (x < 0 ? "\u2212" : "+") + (Math.abs(x) < 5e-6 ? "0" : digits(100 * Math.abs(x))) + " %";
 
 byId("title").textContent = document.title = data.title || "Skies";
@@ -118,10 +119,11 @@ function fileRow(f) {
   const error = errorOf(f), button = make("button", {type: "button", on: {click: () => copy(absolute(f.path), button)}}, "Copy path");
   const rows = [make("span", {}, make("a", {href: link(f.path)}, f.path)), button,
     make("small", {}, [data.outputs[f.output], bytes(f.bytes)].join(", "))];
-  const apart = data.without_disc[f.output];  // then less light is no error
+  const apart = data.without_disc[f.output];
+  const isMap = /^(map|sky) /.test(data.outputs[f.output]);  // harmonics and filtered cubes are off by their theory
   if (error !== null)
-    rows.push(make("small", {class: Math.abs(error) > 0.005 && !apart ? "off" : null},
-      `level ground gets ${lux(f.has)}, by the model ${lux(f.true)}: ${percent(error)}` + (apart ? ", the disc left out" : "")));
+    rows.push(make("small", {class: Math.abs(error) > 0.005 && isMap ? "off" : null},
+      `level ground gets ${lux(f.has)}, by the model ${lux(f.true)}: ` + (apart ? "with the sun beside it " : "") + percent(error)));
   else if (f.true === 0) rows.push(make("small", {}, "no light by the model"));
   if (f.lost > 0 && !apart) rows.push(make("small", {class: "off"}, `${digits(100 * f.lost)} % of the sum of all values cut off`));
   if (f.scale !== undefined && f.scale !== 1) rows.push(make("small", {}, `values were multiplied by ${f.scale}`));
