@@ -209,12 +209,12 @@ TEST(IrradianceProduct, ZenithIsTheModelsIrradianceOfLevelGround) {
         auto output = irradiance_map(format, 64);
         output.sun_disc = disc;
         if (format == "hdr") output.sample_type = output::SampleType::float32;
-        EXPECT_LT(std::abs(relative_error(skies().make(output, frame)[0])), 5e-3) << frame;
+        EXPECT_LT(std::abs(relative_error(skies().make(output, frame)[0])), 3e-3) << frame;
       }
       auto cube = product(ProductKind::irradiance, "ktx2", 16);
       cube.sun_disc = disc;
       const auto files = skies().make(cube, frame);
-      EXPECT_LT(std::abs(relative_error(files[0])), 5e-3) << frame;
+      EXPECT_LT(std::abs(relative_error(files[0])), 3e-3) << frame;
       EXPECT_EQ(output::read_ktx2(files[0].bytes).problem, "");
     }
 }

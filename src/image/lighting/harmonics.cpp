@@ -56,7 +56,8 @@ Harmonics project_picture(const Camera& camera, const FrameBuffer& image,
       }
   });
   Harmonics sum{};
-  for (const Harmonics& row : rows) sum = sum_of(sum, row);  // in a fixed order, whoever made the rows
+  for (const Harmonics& row : rows)
+    sum = sum_of(sum, row);  // in a fixed order, whoever made the rows
   return sum;
 }
 

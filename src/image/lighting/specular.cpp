@@ -43,11 +43,9 @@ double roughness_of_level(int level, int levels) {
 
 double alpha_of_roughness(double roughness) { return roughness * roughness; }
 
-double ggx_kernel(double alpha, double c) {
+GgxKernel::GgxKernel(double alpha) : a2_(alpha * alpha) {
   assert(alpha > 0 && alpha <= 1);
-  const double a2 = alpha * alpha;
-  const double shape = a2 + 0.5 * (1 - a2) * (1 - c);
-  return std::max(0.0, c) / (shape * shape) / (2 * kPi * kernel_integral(a2));
+  scale_ = 1 / (2 * kPi * kernel_integral(a2_));
 }
 
 SpecularSource::SpecularSource(const Camera& camera, const FrameBuffer& sky, double lowest_alpha)

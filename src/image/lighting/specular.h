@@ -24,8 +24,21 @@ double roughness_of_level(int level, int levels);
 /// alpha = roughness^2 (Disney's, as Karis 2013).
 double alpha_of_roughness(double roughness);
 
-/// The kernel per steradian, with integral 1 over the sphere. alpha in (0, 1], c in [-1, 1].
-double ggx_kernel(double alpha, double c);
+/// The kernel per steradian, with integral 1 over the sphere. alpha in (0, 1].
+class GgxKernel {
+ public:
+  explicit GgxKernel(double alpha);
+  /// At an angle with the cosine c.
+  [[nodiscard]] double at_cosine(double c) const { return at_chord2(2 * (1 - c)); }
+  /// By the square of the chord, 2 (1 - c): keeps its digits about the peak.
+  [[nodiscard]] double at_chord2(double chord2) const {
+    const double shape = a2_ + 0.25 * (1 - a2_) * chord2, c = 1 - 0.5 * chord2;
+    return c > 0 ? scale_ * c / (shape * shape) : 0;
+  }
+
+ private:
+  double a2_, scale_;
+};
 
 /// A sky ready to be filtered.
 class SpecularSource {

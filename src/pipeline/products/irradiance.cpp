@@ -1,7 +1,7 @@
 #include "pipeline/products/irradiance.h"
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include "image/irradiance.h"
 #include "image/lighting/cube_mips.h"
@@ -13,22 +13,45 @@ namespace {
 
 constexpr int kSkySide = 128;
 
-/// What the map says about level ground: its value at the zenith, the mean of the pixels about it.
-glm::dvec3 at_zenith(const image::Camera& camera, const image::FrameBuffer& map) {
-  const auto up = *image::position_of(camera, enu_direction({}, 90 * deg));
-  glm::dvec3 sum{0};
-  int count = 0;
-  const bool row = camera.projection == image::Projection::lat_long;  // all of the first row
-  for (int y = 0; y < camera.height; ++y) {
-    if (row ? y > 0 : std::abs(y + 0.5 - up.y) >= 1) continue;
-    for (int x = 0; x < camera.width; ++x) {
-      if (!row && std::abs(x + 0.5 - up.x) >= 1) continue;
-      const float* p = map.pixel(x, y);
-      sum += glm::dvec3(p[0], p[1], p[2]);
-      ++count;
-    }
+/// The pixels that a reader mixes for a surface that looks straight up: of a cube those about the
+/// middle of the upper face, of a lat-long map the first row.
+std::vector<float*> zenith_pixels(const image::Camera& camera, image::FrameBuffer& map) {
+  std::vector<float*> pixels;
+  if (camera.projection == image::Projection::lat_long) {
+    for (int x = 0; x < camera.width; ++x) pixels.push_back(map.pixel(x, 0));
+    return pixels;
   }
-  return sum / double(count);
+  const int side = camera.width, first = (side - 1) / 2, last = side / 2;
+  for (const int y : {first, last})
+    for (const int x : {first, last}) pixels.push_back(map.pixel(x, 2 * side + y));
+  return pixels;
+}
+
+glm::dvec3 mean_of(const std::vector<float*>& pixels) {
+  glm::dvec3 sum{0};
+  for (const float* p : pixels) sum += glm::dvec3(p[0], p[1], p[2]);
+  return sum / double(pixels.size());
+}
+
+/// Sets the mean about the zenith to the irradiance of level ground. No map holds a sun on the
+/// horizon right: the irradiance has a bend there, on one side of which it is nothing.
+void set_level_ground(const image::Camera& camera, const glm::dvec3& level,
+                      image::FrameBuffer& map) {
+  auto pixels = zenith_pixels(camera, map);
+  std::sort(pixels.begin(), pixels.end());  // of an odd side one pixel counts four times
+  pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+  const glm::dvec3 mean = mean_of(pixels);
+  for (float* p : pixels)
+    for (int c = 0; c < 3; ++c)
+      if (mean[c] > 0) p[c] = float(p[c] * (level[c] / mean[c]));
+}
+
+glm::dvec3 level_ground(const image::Camera& sky_camera, const image::FrameBuffer& sky,
+                        const std::vector<image::PointLight>& disc) {
+  glm::dvec3 level = image::image_irradiance(sky_camera, sky);
+  for (const image::PointLight& light : disc)
+    level += std::max(0.0, light.direction.z()) * light.irradiance;
+  return level;
 }
 
 }  // namespace
@@ -41,7 +64,9 @@ Result<std::vector<ProductFile>> make_irradiance(const ProductRequest& request, 
   image::FrameBuffer map;
   {
     const StageTimer timer(times, Stage::product);
-    map = image::irradiance_map(camera, sky_camera, *sky, disc_lights(request));
+    const auto disc = disc_lights(request);
+    map = image::irradiance_map(camera, sky_camera, *sky, disc);
+    set_level_ground(camera, level_ground(sky_camera, *sky, disc), map);
   }
   const std::string unit = "irradiance by the direction of the normal; 1.0 is 683 lux";
   std::vector<ProductFile> files;
@@ -56,7 +81,7 @@ Result<std::vector<ProductFile>> make_irradiance(const ProductRequest& request, 
     files = *std::move(made);
   }
   round_as_stored(request.output.format, request.output.sample_type, map);
-  const double lux = horizontal_lux(request.light, at_zenith(camera, map));
+  const double lux = horizontal_lux(request.light, mean_of(zenith_pixels(camera, map)));
   for (ProductFile& file : files)
     file.encoding = {{"horizontal_lux", lux},
                      {"true_horizontal_lux", true_horizontal_lux(request)}};

@@ -39,51 +39,56 @@ double lowest_alpha(const ProductRequest& request, const image::FrameBuffer& sky
 }
 
 /// Level 0: the sky with its disc, spread only if the file's numbers end too soon.
-Status add_mirrored_disc(const ProductRequest& request, const image::Camera& camera,
-                         const std::vector<image::PointLight>& disc, double alpha, Levels& levels,
-                         StageTimes& times) {
-  if (disc.empty()) return Done{};
+void add_mirrored_disc(const ProductRequest& request, const image::Camera& camera,
+                       const std::vector<image::PointLight>& disc, double alpha, Levels& levels,
+                       StageTimes& times) {
+  if (disc.empty()) return;
   image::FrameBuffer& cube = levels.cubes.front();
-  image::FrameBuffer with = cube;
   const image::Camera view = image::strip_camera(camera, cube.width());
+  if (!is_half(request)) return request.light.add_disc_rows(view, 0, cube, times);
+  image::FrameBuffer with = cube;
   request.light.add_disc_rows(view, 0, with, times);
-  if (is_half(request) && output::exceeds_half(with)) {
-    const StageTimer timer(times, Stage::product);
-    image::add_filtered_lights(view, disc, alpha, cube);
-    levels.sun_roughness = std::sqrt(alpha);
-  } else {
+  if (!output::exceeds_half(with)) {
     cube = std::move(with);
+    return;
   }
-  return Done{};
+  const StageTimer timer(times, Stage::product);
+  image::add_filtered_lights(view, disc, alpha, cube);
+  levels.sun_roughness = std::sqrt(alpha);
 }
 
-Result<Levels> levels_of(const ProductRequest& request, const image::Camera& camera,
-                         StageTimes& times) {
-  const int side = camera.width, count = std::max(1, request.output.levels);
-  const int sky_side = side * ((kSmallestSky + side - 1) / side);
-  const image::Camera sky_camera = image::strip_camera(camera, sky_side);
-  auto sky = request.light.picture(sky_camera, Disc::without, times);
-  if (!sky) return sky.error();
-  const auto disc = disc_lights(request);
-  const double least = lowest_alpha(request, *sky, disc);
-
-  Levels levels;
-  levels.roughness.push_back(0);
-  levels.cubes.push_back(sky_side == side ? *sky : image::shrunk_cube(*sky, side));
-  const Status mirrored = add_mirrored_disc(request, camera, disc, least, levels, times);
-  if (!mirrored) return mirrored.error();
-  if (count == 1) return levels;
+/// Levels from 1 on.
+void add_filtered(const ProductRequest& request, const image::Camera& camera,
+                  const image::FrameBuffer& sky, const std::vector<image::PointLight>& disc,
+                  double least, Levels& levels, StageTimes& times) {
+  const int count = request.output.levels;
+  if (count <= 1) return;
   const StageTimer timer(times, Stage::product);
   const double narrowest = image::alpha_of_roughness(image::roughness_of_level(1, count));
-  const image::SpecularSource source(sky_camera, *sky, narrowest);
+  const image::SpecularSource source(camera, sky, narrowest);
   for (int level = 1; level < count; ++level) {
     const double roughness = image::roughness_of_level(level, count);
     const double alpha = image::alpha_of_roughness(roughness);
-    image::FrameBuffer cube = source.filtered(image::level_side(side, level), alpha);
+    image::FrameBuffer cube = source.filtered(image::level_side(camera.width, level), alpha);
     image::add_filtered_lights(camera, disc, std::max(alpha, least), cube);
     levels.roughness.push_back(roughness);
     levels.cubes.push_back(std::move(cube));
   }
+}
+
+Result<Levels> levels_of(const ProductRequest& request, const image::Camera& camera,
+                         StageTimes& times) {
+  const int side = camera.width, sky_side = side * ((kSmallestSky + side - 1) / side);
+  auto sky = request.light.picture(image::strip_camera(camera, sky_side), Disc::without, times);
+  if (!sky) return sky.error();
+  const auto disc = disc_lights(request);
+  const double least = lowest_alpha(request, *sky, disc);
+  Levels levels;
+  levels.cubes.emplace_back();  // the first, when the others no longer need the sky
+  levels.roughness.push_back(0);
+  add_filtered(request, camera, *sky, disc, least, levels, times);
+  levels.cubes.front() = sky_side == side ? *std::move(sky) : image::shrunk_cube(*sky, side);
+  add_mirrored_disc(request, camera, disc, least, levels, times);
   return levels;
 }
 

@@ -79,7 +79,8 @@ TEST(Harmonics, TurningTheAxesTurnsTheLight) {
 
 TEST(Harmonics, AddUpAndConvolve) {
   const PointLight sun{enu_direction(10 * deg, 5 * deg), {1, 2, 3}};
-  const auto sky = of_sky(clear_sky), disc = project_lights({&sun, 1}, kEnu), all = sum_of(sky, disc);
+  const auto sky = of_sky(clear_sky), disc = project_lights({&sun, 1}, kEnu),
+             all = sum_of(sky, disc);
   const auto y = harmonics_at({0, 0, 1});
   const auto e = cosine_convolved(all);
   glm::dvec3 sum{0};

@@ -19,10 +19,10 @@ TEST(GgxKernel, IntegratesToOneOverTheSphere) {
     const int n = 20000;
     for (int i = 0; i < n; ++i) {  // in steps that shrink towards the peak: c = 1 - u^3
       const double u = (i + 0.5) / n;
-      sum += 2 * kPi * ggx_kernel(alpha, 1 - u * u * u) * 3 * u * u / n;
+      sum += 2 * kPi * GgxKernel(alpha).at_cosine(1 - u * u * u) * 3 * u * u / n;
     }
     EXPECT_NEAR(sum, 1, 1e-5) << alpha;
-    EXPECT_EQ(ggx_kernel(alpha, -0.1), 0);
+    EXPECT_EQ(GgxKernel(alpha).at_cosine(-0.1), 0);
   }
 }
 
@@ -55,7 +55,7 @@ TEST(GgxKernel, IsWhatSamplesOfTheSplitSumTendTo) {
   for (int i = 0; i < m; ++i)
     for (int j = 0; j < m; ++j) {
       const double c = (i + 0.5) / m, phi = 2 * kPi * (j + 0.5) / m, s = std::sqrt(1 - c * c);
-      expected += ggx_kernel(alpha, c) * 2 * kPi / m / m *
+      expected += GgxKernel(alpha).at_cosine(c) * 2 * kPi / m / m *
                   sky(glm::dot({s * std::cos(phi), s * std::sin(phi), c}, towards));
     }
   EXPECT_NEAR(light / weight / expected, 1, 1e-3);
@@ -100,7 +100,7 @@ glm::dvec3 brute_force(const Camera& camera, const FrameBuffer& sky, double alph
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x) {
       const double c = glm::dot(n, direction_at(camera, {x + 0.5, y + 0.5})->vec());
-      const double w = pixel_solid_angle(camera, x, y).in(sr)*ggx_kernel(alpha, c);
+      const double w = pixel_solid_angle(camera, x, y).in(sr)*GgxKernel(alpha).at_cosine(c);
       const float* p = sky.pixel(x, y);
       sum += w * glm::dvec3(p[0], p[1], p[2]);
       weights += w;
@@ -165,14 +165,14 @@ TEST(SpecularLights, HaveTheKernelsShape) {
     for (int x = 0; x < 64; x += 5) {
       const double c = glm::dot(sun.vec(), direction_at(camera, {x + 0.5, y + 0.5})->vec());
       if (c < 0.05) continue;
-      EXPECT_NEAR(strip.pixel(x, y)[0] / ggx_kernel(0.111, c), 1, 0.02) << c;
+      EXPECT_NEAR(strip.pixel(x, y)[0] / GgxKernel(0.111).at_cosine(c), 1, 0.02) << c;
     }
 }
 
 TEST(SpecularLights, FitUnderAPeak) {
   const auto lights = small_disc(enu_direction({}, 50 * deg), 146);
   const double alpha = alpha_for_peak(lights, 65000);
-  EXPECT_NEAR(146 * ggx_kernel(alpha, 1), 65000, 1);
+  EXPECT_NEAR(146 * GgxKernel(alpha).at_cosine(1), 65000, 1);
   FrameBuffer strip(256, 6 * 256);
   add_filtered_lights(strip_heading({}, 256), lights, alpha, strip);
   EXPECT_LE(*std::max_element(strip.data().begin(), strip.data().end()), 65504.0F);
