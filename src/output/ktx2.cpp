@@ -151,6 +151,41 @@ void put_level(Bytes& out, const KtxCube& cube, size_t level) {
     append(texels<float>(cube.levels[level], cube.faces, [](float v) { return v; }));
 }
 
+/// Where the levels lie: from the smallest to the largest, each at a multiple of a texel.
+struct Layout {
+  std::vector<size_t> offsets, bytes;  // of each level, the largest first
+  size_t end = 0;
+};
+
+Layout layout_of(const KtxCube& cube, size_t texel_bytes, size_t first) {
+  const size_t levels = cube.levels.size();
+  Layout layout{std::vector<size_t>(levels), std::vector<size_t>(levels), first};
+  for (size_t i = levels; i-- > 0;) {
+    const image::FrameBuffer& strip = cube.levels[i];
+    assert(strip.width() == image::level_side(cube.levels[0].width(), int(i)));
+    assert(strip.height() == 6 * strip.width());
+    layout.offsets[i] = (layout.end + texel_bytes - 1) / texel_bytes * texel_bytes;
+    layout.bytes[i] = texel_bytes * strip.pixel_count();
+    layout.end = layout.offsets[i] + layout.bytes[i];
+  }
+  return layout;
+}
+
+void put_header(Bytes& out, const KtxCube& cube, size_t dfd_bytes, size_t kvd_bytes) {
+  const bool half = cube.type == SampleType::half_float;
+  const auto side = uint32_t(cube.levels[0].width());
+  const size_t dfd_at = kHeaderBytes + kLevelIndexBytes * cube.levels.size();
+  out.put_text("\xabKTX 20\xbb\r\n\x1a\n");
+  for (const uint32_t field : {half ? kFormatRgba16f : kFormatRgba32f, half ? 2U : 4U, side, side,
+                               0U, 0U, 6U, uint32_t(cube.levels.size()), 0U})
+    out.put(field);
+  for (const size_t field : {dfd_at, dfd_bytes, dfd_at + dfd_bytes, kvd_bytes})
+    out.put(uint32_t(field));
+  out.put(uint64_t{0});  // no global data
+  out.put(uint64_t{0});
+  assert(out.size() == kHeaderBytes);
+}
+
 }  // namespace
 
 Result<std::vector<std::byte>> ktx2_file(const KtxCube& cube) {
@@ -158,44 +193,22 @@ Result<std::vector<std::byte>> ktx2_file(const KtxCube& cube) {
   assert(cube.type == SampleType::half_float || cube.type == SampleType::float32);
   const Status values = check_values(cube);
   if (!values) return values.error();
-  const bool half = cube.type == SampleType::half_float;
-  const uint8_t channel_bytes = half ? 2 : 4;
+  const uint8_t channel_bytes = cube.type == SampleType::half_float ? 2 : 4;
   const size_t texel_bytes = size_t{4} * channel_bytes, levels = cube.levels.size();
-  const auto side = uint32_t(cube.levels[0].width());
   Bytes dfd = descriptor(cube.space, channel_bytes), kvd = key_values(cube);
-  const size_t dfd_at = kHeaderBytes + kLevelIndexBytes * levels, kvd_at = dfd_at + dfd.size();
-
+  const size_t index_end = kHeaderBytes + kLevelIndexBytes * levels;
+  const Layout layout = layout_of(cube, texel_bytes, index_end + dfd.size() + kvd.size());
   Bytes out;
-  out.put_text("\xabKTX 20\xbb\r\n\x1a\n");
-  for (const uint32_t field : {half ? kFormatRgba16f : kFormatRgba32f, uint32_t{channel_bytes},
-                               side, side, 0U, 0U, 6U, uint32_t(levels), 0U})
-    out.put(field);
-  for (const size_t field : {dfd_at, dfd.size(), kvd_at, kvd.size()}) out.put(uint32_t(field));
-  out.put(uint64_t{0});  // no global data
-  out.put(uint64_t{0});
-  assert(out.size() == kHeaderBytes);
-
-  // Levels lie from the smallest to the largest, each at a multiple of a texel.
-  const auto aligned = [&](size_t at) {
-    return (at + texel_bytes - 1) / texel_bytes * texel_bytes;
-  };
-  std::vector<size_t> offsets(levels), bytes(levels);
-  size_t at = kvd_at + kvd.size();
-  for (size_t i = levels; i-- > 0;) {
-    assert(cube.levels[i].width() == image::level_side(int(side), int(i)));
-    assert(cube.levels[i].height() == 6 * cube.levels[i].width());
-    offsets[i] = aligned(at);
-    bytes[i] = texel_bytes * cube.levels[i].pixel_count();
-    at = offsets[i] + bytes[i];
-  }
+  out.data().reserve(layout.end);
+  put_header(out, cube, dfd.size(), kvd.size());
   for (size_t i = 0; i < levels; ++i)
-    for (const size_t field : {offsets[i], bytes[i], bytes[i]}) out.put(uint64_t(field));
+    for (const size_t field : {layout.offsets[i], layout.bytes[i], layout.bytes[i]})
+      out.put(uint64_t(field));
   for (Bytes* part : {&dfd, &kvd})
     out.data().insert(out.data().end(), part->data().begin(), part->data().end());
-  out.data().reserve(at);
   for (size_t i = levels; i-- > 0;) {
     out.pad_to(texel_bytes);
-    assert(out.size() == offsets[i]);
+    assert(out.size() == layout.offsets[i]);
     put_level(out, cube, i);
   }
   return std::move(out.data());

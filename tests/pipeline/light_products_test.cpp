@@ -235,6 +235,27 @@ TEST(IrradianceProduct, SurfaceThatFacesTheSunGetsItsNormalIrradiance) {
   }
 }
 
+TEST(LightProducts, OfANightAreWrittenInFloatsWhereHalvesEnd) {
+  FrameLight night = skies().lights[1];
+  // As dark as the sky of a night without moon: 1e-10 of the day.
+  night.sky.fill = [day = skies().lights[1].sky.fill](
+                       const image::Camera& camera, const glm::dmat3& matrix, int row,
+                       FrameBuffer& out) { return day(camera, 1e-10 * matrix, row, out); };
+  night.sky.sky_irradiance_xyz *= 1e-10;
+  night.disc_shows = false;
+  const auto io = output::open_image_io();
+  for (const auto& output : {product(ProductKind::specular, "ktx2", 32, 3),
+                             product(ProductKind::irradiance, "ktx2", 16)}) {
+    StageTimes times;
+    const auto made =
+        make_product({skies().plan, skies().plan.frames[1], output, night, **io, {}, {"x"}}, times);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(output::read_ktx2(made->front().bytes).vk_format, 109U);
+    EXPECT_LT(std::abs(relative_error(made->front())), 5e-3);
+    EXPECT_EQ(output::read_ktx2(skies().make(output, 1)[0].bytes).vk_format, 97U);
+  }
+}
+
 /// What nine terms make of the irradiance of level ground by light at the sine of elevation s.
 double nine_terms(double s) { return 0.25 + s / 2 + 5.0 / 32 * (3 * s * s - 1); }
 

@@ -107,6 +107,20 @@ void round_as_stored(const std::string& format, output::SampleType type,
     output::round_to_half(image.data());
 }
 
+output::SampleType stored_type(const ProductRequest& request, const image::FrameBuffer& picture) {
+  constexpr double kMostLost = 5e-4;  // a tenth of what products promise
+  const output::SampleType asked = request.output.sample_type;
+  if (asked != output::SampleType::half_float) return asked;
+  glm::dvec3 exact{0}, stored{0};
+  for (size_t i = 0; i < picture.data().size(); ++i) {
+    exact[int(i % 3)] += picture.data()[i];
+    stored[int(i % 3)] += output::rounded_to_half(picture.data()[i]);
+  }
+  // Of the light as a whole: a channel that hardly counts may be dark by day too.
+  const double lost = std::abs((exact.x + exact.y + exact.z) - (stored.x + stored.y + stored.z));
+  return lost > kMostLost * (exact.x + exact.y + exact.z) ? output::SampleType::float32 : asked;
+}
+
 double horizontal_lux(const FrameLight& light, const glm::dvec3& horizontal_rgb) {
   return kLuminousEfficacy * (glm::inverse(light.xyz_to_rgb) * horizontal_rgb).y;
 }
@@ -125,7 +139,8 @@ std::vector<image::PointLight> disc_lights(const ProductRequest& request) {
 
 Result<std::vector<ProductFile>> picture_files(const ProductRequest& request,
                                                const image::FrameBuffer& picture,
-                                               const Notes& notes, StageTimes& times) {
+                                               output::SampleType type, const Notes& notes,
+                                               StageTimes& times) {
   const StageTimer timer(times, Stage::encode);
   const config::CameraConfig& view = *request.output.view;
   const bool cube = view.camera.projection == image::Projection::cube;
@@ -142,7 +157,7 @@ Result<std::vector<ProductFile>> picture_files(const ProductRequest& request,
   encode.format = request.output.format;
   encode.width = ordered.width();
   encode.height = ordered.height() / parts;
-  encode.type = request.output.sample_type;
+  encode.type = type;
   encode.attributes = output::frame_attributes(meta);
   encode.attributes.push_back({"skylapse:orientation", std::string(convention.name)});
   for (const auto& [name, value] : notes) encode.attributes.push_back({name, value});

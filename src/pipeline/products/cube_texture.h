@@ -33,6 +33,10 @@ image::Camera product_camera(const ProductRequest& request);
 /// Numbers that a file of this format and type holds, in place.
 void round_as_stored(const std::string& format, output::SampleType type, image::FrameBuffer& image);
 
+/// The type in which a product is written: the one asked for, but 32-bit floats where halves end
+/// above what is to be stored. (Half floats end at 6e-8, 4e-5 lux: a night without a moon.)
+output::SampleType stored_type(const ProductRequest& request, const image::FrameBuffer& picture);
+
 /// Illuminance of level ground by a picture in the frame's space.
 double horizontal_lux(const FrameLight& light, const glm::dvec3& horizontal_rgb);
 /// By the model's own light: the sky's and, if the product has it and it shows, the disc's.
@@ -45,6 +49,7 @@ std::vector<image::PointLight> disc_lights(const ProductRequest& request);
 /// the orientation. `notes` become attributes.
 Result<std::vector<ProductFile>> picture_files(const ProductRequest& request,
                                                const image::FrameBuffer& picture,
-                                               const Notes& notes, StageTimes& times);
+                                               output::SampleType type, const Notes& notes,
+                                               StageTimes& times);
 
 }  // namespace skylapse::pipeline

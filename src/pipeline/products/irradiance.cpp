@@ -69,18 +69,19 @@ Result<std::vector<ProductFile>> make_irradiance(const ProductRequest& request, 
     set_level_ground(camera, level_ground(sky_camera, *sky, disc), map);
   }
   const std::string unit = "irradiance by the direction of the normal; 1.0 is 683 lux";
+  const output::SampleType type = stored_type(request, map);
   std::vector<ProductFile> files;
   if (request.output.format == "ktx2") {
-    auto file = cube_texture_of({&map, 1}, camera, request.output.sample_type, request.meta,
-                                request.output.orientation, {{"skylapse:quantity", unit}}, times);
+    auto file = cube_texture_of({&map, 1}, camera, type, request.meta, request.output.orientation,
+                                {{"skylapse:quantity", unit}}, times);
     if (!file) return file.error();
     files.push_back(*std::move(file));
   } else {
-    auto made = picture_files(request, map, {{"skylapse:quantity", unit}}, times);
+    auto made = picture_files(request, map, type, {{"skylapse:quantity", unit}}, times);
     if (!made) return made.error();
     files = *std::move(made);
   }
-  round_as_stored(request.output.format, request.output.sample_type, map);
+  round_as_stored(request.output.format, type, map);
   const double lux = horizontal_lux(request.light, mean_of(zenith_pixels(camera, map)));
   for (ProductFile& file : files)
     file.encoding = {{"horizontal_lux", lux},

@@ -98,8 +98,8 @@ std::string list_of(const std::vector<double>& values) {
 
 /// What the file's numbers of a level give to level ground.
 double stored_lux(const ProductRequest& request, const image::Camera& camera,
-                  image::FrameBuffer cube) {
-  round_as_stored(request.output.format, request.output.sample_type, cube);
+                  output::SampleType type, image::FrameBuffer cube) {
+  round_as_stored(request.output.format, type, cube);
   return horizontal_lux(request.light,
                         image::image_irradiance(image::strip_camera(camera, cube.width()), cube));
 }
@@ -112,13 +112,14 @@ Result<std::vector<ProductFile>> make_specular(const ProductRequest& request, St
   const auto levels = levels_of(request, camera, times);
   if (!levels) return levels.error();
   const double true_lux = true_horizontal_lux(request);
+  const output::SampleType type = stored_type(request, levels->cubes.front());
   std::vector<ProductFile> files;
   if (request.output.format == "ktx2") {
-    auto file = cube_texture_of(levels->cubes, camera, request.output.sample_type, request.meta,
-                                request.output.orientation,
-                                {{"skylapse:roughness", list_of(levels->roughness)},
-                                 {"skylapse:filter", "GGX, alpha = roughness^2, N = V = R"}},
-                                times);
+    auto file =
+        cube_texture_of(levels->cubes, camera, type, request.meta, request.output.orientation,
+                        {{"skylapse:roughness", list_of(levels->roughness)},
+                         {"skylapse:filter", "GGX, alpha = roughness^2, N = V = R"}},
+                        times);
     if (!file) return file.error();
     file->encoding["true_horizontal_lux"] = true_lux;
     file->encoding["sun_roughness"] = levels->sun_roughness;
@@ -126,12 +127,12 @@ Result<std::vector<ProductFile>> make_specular(const ProductRequest& request, St
     return files;
   }
   for (size_t level = 0; level < levels->cubes.size(); ++level) {
-    auto made = picture_files(request, levels->cubes[level],
+    auto made = picture_files(request, levels->cubes[level], type,
                               {{"skylapse:roughness", list_of({levels->roughness[level]})},
                                {"skylapse:filter", "GGX, alpha = roughness^2, N = V = R"}},
                               times);
     if (!made) return made.error();
-    const double lux = stored_lux(request, camera, levels->cubes[level]);
+    const double lux = stored_lux(request, camera, type, levels->cubes[level]);
     for (ProductFile& file : *made) {
       file.encoding = {{"horizontal_lux", lux},
                        {"true_horizontal_lux", true_lux},
