@@ -260,8 +260,13 @@ bool check_orientation(const Section& section, const CameraConfig& config,
     return false;
   };
   if (section.has("look_at")) return refuse("look_at says where the centre is");
+  const bool square = config.camera.projection == Projection::octahedral;
+  const bool pbrt = section.get<std::string>("orientation") == "pbrt";
+  if (pbrt != square && image::stands_upright(config.camera.projection))
+    return refuse(pbrt ? "pbrt reads square octahedral maps alone" : "octahedral maps are pbrt's");
   if (image::stands_upright(config.camera.projection)) return true;
-  return refuse("it belongs to lat-long maps and cubes");
+  return refuse(
+      "it belongs to images of the whole sphere that stand upright: lat-long, cube, octahedral");
 }
 
 }  // namespace

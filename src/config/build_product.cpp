@@ -32,9 +32,11 @@ OutputItem::Endings endings_of(ProductKind kind) {
   return {};
 }
 
-/// Numbers of a map or cube: .hdr has but one kind.
+/// Numbers of a map or cube: .hdr has but one kind. A map of irradiance is small, and the night is
+/// darker than half numbers reach (6e-8 times 683 cd/m^2).
 void read_type(const OutputItem& item, ProductOutput& out) {
-  out.sample_type = out.format == "hdr" ? SampleType::float32 : SampleType::half_float;
+  const bool small_map = out.kind == ProductKind::irradiance && out.format == "exr";
+  out.sample_type = out.format == "hdr" || small_map ? SampleType::float32 : SampleType::half_float;
   const auto word = item.section.get<std::string>("type");
   if (!word) return;
   const SampleType type = *value_of(kSampleTypeWords, *word);
@@ -127,6 +129,8 @@ std::optional<ProductOutput> build_product(const OutputItem& item, ProductKind k
   if (const auto word = item.section.get<std::string>("orientation"))
     out.orientation = *value_of(kOrientationWords, *word);
   const bool has_pixels = kind == ProductKind::specular || kind == ProductKind::irradiance;
+  if (has_pixels && out.orientation == Orientation::pbrt)
+    item.no_meaning("orientation", "pbrt reads square octahedral maps alone");
   if (has_pixels) read_type(item, out);
   if (has_pixels || kind == ProductKind::harmonics)
     out.sun_disc = item.section.get<bool>("sun_disc").value_or(true);

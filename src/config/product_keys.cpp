@@ -20,12 +20,9 @@ KeySpec orientation_key(std::string_view default_text, std::string_view doc) {
           .doc = doc};
 }
 
-KeySpec numbers_key() {
-  return {.name = "type",
-          .kind = K::word,
-          .words = {"half", "float"},
-          .example = "float",
-          .doc = "Numbers in the file. Default half (ktx2, exr), float (hdr)."};
+KeySpec numbers_key(std::string_view doc) {
+  return {
+      .name = "type", .kind = K::word, .words = {"half", "float"}, .example = "float", .doc = doc};
 }
 
 KeySpec disc_key(std::string_view doc) {
@@ -54,7 +51,7 @@ const SectionSpec& specular_spec() {
                    "File name, relative to the output folder, ending in ktx2 (all levels in one "
                    "file), or in exr or hdr with the token {level}, and {face} for six files a "
                    "level."),
-          numbers_key(),
+          numbers_key("Numbers in the file. Default half (ktx2, exr), float (hdr)."),
           size_key("256", "Side of a face of the first level, in pixels; a power of 2."),
           {.name = "levels",
            .kind = K::integer,
@@ -78,7 +75,8 @@ const SectionSpec& irradiance_spec() {
           path_key("irradiance", "{site}_{date}_{time}_irradiance.exr",
                    "File name, relative to the output folder, ending in exr, hdr or ktx2; with "
                    "{face} a cube in six files."),
-          numbers_key(),
+          numbers_key("Numbers in the file. Default half (ktx2), float (exr, hdr): half numbers "
+                      "end above the light of night."),
           {.name = "projection",
            .kind = K::word,
            .words = {"lat-long", "cube"},

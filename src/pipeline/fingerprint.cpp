@@ -144,6 +144,20 @@ std::string image_fingerprint(const plan::Plan& plan, const plan::Frame& frame,
   return sha256_hex(all.dump());
 }
 
+/// A dome names its map relative to itself, and stands as the map is laid out, scaled, and without
+/// the disc or with it.
+static json map_json(const plan::Plan& plan, const plan::Frame& frame,
+                     const config::ProductOutput& dome) {
+  json all{{"path", dome.path.value}};
+  for (size_t o = 0; o < plan.job.outputs.size(); ++o)
+    if (const auto* image = std::get_if<config::ImageOutput>(&plan.job.outputs[o]);
+        image != nullptr && image->path.value == dome.map_path.value) {
+      all["files"] = plan::files_of(plan, frame, o);
+      all["settings"] = image_fingerprint(plan, frame, *image, "");
+    }
+  return all;
+}
+
 std::string product_fingerprint(const plan::Plan& plan, const plan::Frame& frame,
                                 const config::ProductOutput& output) {
   json all = frame_json(plan, frame);
@@ -155,9 +169,7 @@ std::string product_fingerprint(const plan::Plan& plan, const plan::Frame& frame
   all["levels"] = output.levels;
   all["orientation"] = int(output.orientation);
   all["with_disc"] = output.sun_disc;
-  // A dome names its map relative to itself, so both places count.
-  all["map"] = output.map_path.value;
-  if (output.kind == config::ProductKind::dome) all["path"] = output.path.value;
+  if (output.kind == config::ProductKind::dome) all["map"] = map_json(plan, frame, output);
   return sha256_hex(all.dump());
 }
 

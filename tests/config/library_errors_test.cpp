@@ -106,11 +106,24 @@ TEST(LibraryErrors, ViewsOfTheirOwn) {
   EXPECT_EQ(error_at("{image: a.####.exr, orientation: usd}"),
             kPlace +
                 "orientation] outputs.0.orientation has no meaning here | it belongs to "
-                "lat-long maps and cubes");
+                "images of the whole sphere that stand upright: lat-long, cube, octahedral");
   EXPECT_EQ(error_at("{image: a.####.exr, projection: lat-long, look_at: east, orientation: usd}"),
             kPlace +
                 "orientation] outputs.0.orientation has no meaning here | look_at says where "
                 "the centre is");
+  EXPECT_EQ(error_at("{image: a.####.exr, projection: lat-long, orientation: pbrt}"),
+            kPlace +
+                "orientation] outputs.0.orientation has no meaning here | pbrt reads square "
+                "octahedral maps alone");
+  EXPECT_EQ(error_at("{image: a.####.exr, projection: octahedral, orientation: usd}"),
+            kPlace +
+                "orientation] outputs.0.orientation has no meaning here | octahedral maps are "
+                "pbrt's");
+  EXPECT_EQ(error_at("{specular: a.####.ktx2, orientation: pbrt}"),
+            kPlace +
+                "orientation] outputs.0.orientation has no meaning here | pbrt reads square "
+                "octahedral maps alone");
+  EXPECT_EQ(error_at("{image: a.####.exr, projection: octahedral, orientation: pbrt}"), "no error");
   EXPECT_THAT(error_at("{image: a.####.exr, projection: cube, orientation: unrael}"),
               HasSubstr("did you mean unreal?"));
   const std::string two = with(kSmallJob, "camera: {look_at: west}",

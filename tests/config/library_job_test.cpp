@@ -88,7 +88,7 @@ TEST(LibraryJob, ProductsHaveTheDefaultsOfTheirFormats) {
   const auto map = output_of<ProductOutput>("{irradiance: a.####.exr}");
   EXPECT_EQ(map.view->camera.projection, image::Projection::lat_long);
   EXPECT_EQ(map.view->camera.height, 32);
-  EXPECT_EQ(map.sample_type, output::SampleType::half_float);
+  EXPECT_EQ(map.sample_type, output::SampleType::float32);
   EXPECT_TRUE(map.sun_disc);
   const auto cube = output_of<ProductOutput>("{irradiance: a.####.ktx2, size: 16, type: float}");
   EXPECT_EQ(cube.view->camera.projection, image::Projection::cube);

@@ -1,6 +1,8 @@
 // What is made of all frames of a job.
 #include "pipeline/library/library_pass.h"
 
+#include <set>
+
 #include "pipeline/job_fixture.h"
 #include "pipeline/library/sheet.h"
 
@@ -49,6 +51,28 @@ TEST(LibraryPass, AMovieShowsTheCameraWhateverElseIsWritten) {
   ASSERT_TRUE(run_job(alone, options_for(alone, a.path())).ok());
   ASSERT_TRUE(run_job(beside, options_for(beside, b.path())).ok());
   EXPECT_EQ(hashes(a.path()).at("p.mp4"), hashes(b.path()).at("p.mp4"));
+}
+
+/// A dome is turned and scaled as its map is, and holds the sun that the map leaves out.
+TEST(LibraryPass, ADomeIsMadeAgainWhenItsMapChanges) {
+  const auto dome_with = [](const std::string& map, const std::filesystem::path& folder) {
+    const auto plan = plan_of_text(
+        "location: {name: Prague, latitude: 50.0755, longitude: 14.4378}\n"
+        "time: {zone: Europe/Prague, date: 2026-06-21, at: 12:00}\n"
+        "camera: {projection: lat-long, size: 64x32}\n"
+        "outputs: [{image: \"m_{size}.exr\"" +
+        map + "}, {dome: d.usda, map: \"m_{size}.exr\"}]\n");
+    EXPECT_TRUE(run_job(plan, options_for(plan, folder)).ok());
+    return hashes(folder).at("d.usda");
+  };
+  const TemporaryFolder folder, fresh;
+  std::set<std::string> domes;
+  for (const char* map : {"", ", content: sky", ", size: 32x16", ", look_at: south"}) {
+    const auto dome = dome_with(map, folder.path());
+    EXPECT_EQ(dome, dome_with(map, fresh.path() / std::to_string(domes.size()))) << map;
+    domes.insert(dome);
+  }
+  EXPECT_EQ(domes.size(), 4u);
 }
 
 TEST(Sheet, LabelsSaySiteTimeSunAndWhatDiffers) {
