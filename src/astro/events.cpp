@@ -212,7 +212,7 @@ std::vector<LevelCrossing> sun_level_crossings(const Ephemeris& ephemeris,
   std::vector<LevelCrossing> found;
   for (const Angle level : levels)
     for (const SampledCurve::Crossing& c : curve.crossings(level.in(deg)))
-      if (c.time_s > 0) found.push_back({sky.at(c.time_s), c.rising});
+      if (c.time_s > 0) found.push_back({sky.at(c.time_s), c.rising, level});
   return found;
 }
 

@@ -74,6 +74,7 @@ class DayEventSearch {
 struct LevelCrossing {
   Instant instant;
   bool rising = false;
+  Angle level;
 };
 std::vector<LevelCrossing> sun_level_crossings(const Ephemeris& ephemeris,
                                                const GeodeticPosition& observer, Instant from,

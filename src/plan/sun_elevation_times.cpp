@@ -26,14 +26,15 @@ std::string days_text(const std::vector<year_month_day>& days) {
 std::vector<SunElevationTimes::Time> SunElevationTimes::of_day(const year_month_day& date,
                                                                const astro::CivilDay& day) {
   ++days_;
+  const auto crossings =
+      astro::sun_level_crossings(ephemeris_, site_.position, day.start, day.end, asked_.elevations);
   std::vector<Time> times;
   for (size_t i = 0; i < asked_.elevations.size(); ++i) {
-    const auto crossings = astro::sun_level_crossings(ephemeris_, site_.position, day.start,
-                                                      day.end, asked_.elevations[i]);
     const auto take = [&](bool rising) {
       const auto first =
-          std::find_if(crossings.begin(), crossings.end(),
-                       [&](const astro::LevelCrossing& c) { return c.rising == rising; });
+          std::find_if(crossings.begin(), crossings.end(), [&](const astro::LevelCrossing& c) {
+            return c.level == asked_.elevations[i] && c.rising == rising;
+          });
       if (first != crossings.end())
         times.push_back({first->instant, {asked_.elevations[i], rising}});
       else
