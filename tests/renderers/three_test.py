@@ -34,7 +34,9 @@ camera: {projection: lat-long, size: 1024x512}
 outputs:
   - {image: "map.####.exr", orientation: three}
   - {image: "cube.####.ktx2", projection: cube, size: 256, type: float, orientation: three}
+  - {image: "sky.####.exr", content: sky, projection: lat-long, size: 64x32}
   - {sun: "sun.####.json", orientation: three}
+  - {dome: "dome.####.usda", map: "sky.####.exr"}
 """
 
 
@@ -68,6 +70,19 @@ def try_sun(page, what, sun, bound):
     check(off < bound, f"{what}: the sun is elsewhere")
 
 
+def try_layer(page, text):
+    """A parser that is not ours finds the prims, and their attributes in them."""
+    layer = page.eval(f"tryOut.usda({json.dumps(text)})")
+    sky = layer['def Xform "Sky"']
+    dome, sun = sky['def DomeLight "Dome"'], sky['def DistantLight "Sun"']
+    check(dome["asset inputs:texture:file"] == "@./sky.0001.exr@", "the layer's map")
+    check(dome["token inputs:texture:format"] == '"latlong"' and "matrix4d xformOp:transform" in dome, "the dome")
+    for attribute in ("float inputs:angle", "float inputs:intensity", "color3f inputs:color", "bool inputs:normalize",
+                      "matrix4d xformOp:transform", "uniform token[] xformOpOrder"):
+        check(attribute in sun, f"the sun has no {attribute}")
+    print("usda: prims and attributes are read")
+
+
 def main():
     parser = argparse.ArgumentParser()
     for name in ("draw_compass", "skylapse", "three"):
@@ -98,6 +113,7 @@ def main():
             try_marks(page, "lat-long")
             page.eval("tryOut.cube(" + json.dumps([f"compass_{f}.png" for f in ("px", "nx", "py", "ny", "pz", "nz")]) + ")")
             try_marks(page, "six images")
+            try_layer(page, (folder / "dome.0001.usda").read_text())
             for n in (1, 2, 3):
                 sun = json.loads((folder / f"sun.{n:04}.json").read_text())
                 page.eval(f"tryOut.latLong('map.{n:04}.exr')")

@@ -27,14 +27,18 @@ SunState state_of(const sky::SunDisc& disc) {
   return centre - half_height(disc) >= disc.horizon ? SunState::above : SunState::on_horizon;
 }
 
-/// Of a disc cut by the horizon.
+/// Below this the air dims the lower limb so much more than the upper one that the light comes from
+/// above the disc's centre: at 0 deg by 0.04 deg, at 5 deg by 0.005 deg, in air of turbidity 5.
+constexpr Angle kLowSun = 5 * deg;
+
 Direction<Enu> centre_of_light(const sky::SunDisc& disc, const sky::DiscEnergy& energy) {
-  const Angle upper = elevation(disc.centre) + half_height(disc);
+  const Angle centre = elevation(disc.centre);
   const double normal = energy.normal_irradiance.y, level = energy.horizontal_irradiance.y;
-  const bool by_ground = disc.horizon == Angle{} && normal > 0;
-  const Angle height =
-      by_ground ? std::asin(std::min(level / normal, 1.0)) * rad : (disc.horizon + upper) / 2;
-  return enu_direction(azimuth(disc.centre), height);
+  if (disc.horizon == Angle{} && centre < kLowSun && normal > 0)
+    return enu_direction(azimuth(disc.centre), std::asin(std::min(level / normal, 1.0)) * rad);
+  if (state_of(disc) != SunState::on_horizon) return disc.centre;
+  const Angle upper = centre + half_height(disc);
+  return enu_direction(azimuth(disc.centre), (disc.horizon + upper) / 2);
 }
 
 std::string_view word_of(SunState state) {
@@ -134,7 +138,7 @@ SunLight sun_light_of(const FrameLight& light) {
   sun.horizontal_xyz = light.disc_energy.horizontal_irradiance;
   sun.normal_rgb = rgb.normal_irradiance;
   sun.horizontal_rgb = rgb.horizontal_irradiance;
-  if (sun.state == SunState::on_horizon) sun.from = centre_of_light(light.disc, light.disc_energy);
+  sun.from = centre_of_light(light.disc, light.disc_energy);
   return sun;
 }
 

@@ -12,9 +12,10 @@ enum class SunState { above, on_horizon, below };
 
 struct SunLight {
   SunState state = SunState::below;
-  /// Where the light comes from: the disc's apparent centre. Of a disc that the horizon cuts, the
-  /// place in the centre's azimuth from which `normal` gives level ground its irradiance; of one
-  /// cut by a horizon that lies below elevation 0, the middle between it and the upper limb.
+  /// Where the light comes from: the disc's apparent centre. Below 5 deg, where the air dims the
+  /// lower limb and the horizon cuts it off: the place in the centre's azimuth from which `normal`
+  /// gives level ground its irradiance. Of a disc cut by a horizon that lies below elevation 0: the
+  /// middle between that and the upper limb.
   Direction<Enu> from;
   /// Irradiance of a surface facing `from`, and of level ground, by the disc: W m^-2 in XYZ (683 Y
   /// is lux), and in the job's space as the pictures hold it. 0 where the disc is below the
