@@ -118,7 +118,7 @@ TEST(SpecularProduct, FirstLevelIsTheSkyWithItsDiscAndEveryLevelHasItsLight) {
     output.sample_type = output::SampleType::float32;
     const auto files = skies().make(output, frame);
     EXPECT_LT(std::abs(relative_error(files[0])), 5e-3) << frame;
-    EXPECT_EQ(files[0].encoding.at("sun_roughness"), 0);
+    EXPECT_EQ(files[0].encoding.at("sun_spread"), 1);
     const auto file = output::read_ktx2(files[0].bytes);
     ASSERT_EQ(file.problem, "");
     ASSERT_EQ(file.levels, 5U);
@@ -139,8 +139,9 @@ TEST(SpecularProduct, HalfFloatsKeepAllLightOfADiscThatTheyCannotShow) {
     const auto file = output::read_ktx2(files[0].bytes);
     ASSERT_EQ(file.problem, "");
     if (frame == 1) {
-      EXPECT_GT(files[0].encoding.at("sun_roughness"), 0.05);
-      EXPECT_LT(files[0].encoding.at("sun_roughness"), 0.2);
+      // 1 / 146 of a steradian at half floats' brightest is a disc of 1.5 deg.
+      EXPECT_GT(files[0].encoding.at("sun_spread"), 4);
+      EXPECT_LT(files[0].encoding.at("sun_spread"), 8);
     }
   }
 }

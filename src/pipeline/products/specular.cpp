@@ -21,7 +21,7 @@ constexpr int kSmallestSky = 128;
 struct Levels {
   std::vector<image::FrameBuffer> cubes;
   std::vector<double> roughness;
-  double sun_roughness = 0;  // by which the disc of the first level is spread; 0: not at all
+  double sun_spread = 1;  // radius of the first level's disc over the sun's
 };
 
 bool is_half(const ProductRequest& request) {
@@ -38,23 +38,44 @@ double lowest_alpha(const ProductRequest& request, const image::FrameBuffer& sky
   return room > 0 ? image::alpha_for_peak(disc, room) : 1;
 }
 
-/// Level 0: the sky with its disc, spread only if the file's numbers end too soon.
-void add_mirrored_disc(const ProductRequest& request, const image::Camera& camera,
-                       const std::vector<image::PointLight>& disc, double alpha, Levels& levels,
+/// The same light on a disc of a radius `spread` times as large.
+sky::SunDisc widened(const sky::SunDisc& disc, double spread) {
+  sky::SunDisc wide = disc;
+  wide.radius = std::min(10 * deg, spread * disc.radius);
+  const Angle centre = elevation(disc.centre);
+  const auto radiance = [disc, spread, centre](Angle view, double limb) {
+    const Angle there = centre + (view - centre) / spread;
+    return disc.radiance(std::max(disc.horizon, there), limb);
+  };
+  wide.radiance = radiance;
+  const glm::dvec3 flux = sky::disc_energy(disc).normal_irradiance;
+  const glm::dvec3 wider = sky::disc_energy(wide).normal_irradiance;
+  glm::dvec3 factor{0};
+  for (int c = 0; c < 3; ++c)
+    if (wider[c] > 0) factor[c] = flux[c] / wider[c];
+  wide.radiance = [radiance, factor](Angle view, double limb) {
+    return factor * radiance(view, limb);
+  };
+  return wide;
+}
+
+/// Level 0: the sky with its disc, made wider until the file's numbers hold it.
+void add_mirrored_disc(const ProductRequest& request, const image::Camera& camera, Levels& levels,
                        StageTimes& times) {
-  if (disc.empty()) return;
   image::FrameBuffer& cube = levels.cubes.front();
   const image::Camera view = image::strip_camera(camera, cube.width());
   if (!is_half(request)) return request.light.add_disc_rows(view, 0, cube, times);
-  image::FrameBuffer with = cube;
-  request.light.add_disc_rows(view, 0, with, times);
-  if (!output::exceeds_half(with)) {
-    cube = std::move(with);
-    return;
+  const image::FrameBuffer sky = cube;
+  request.light.add_disc_rows(view, 0, cube, times);
+  // A disc that covers the pixels of a face is wide enough for any light the sun has.
+  while (output::exceeds_half(cube) && levels.sun_spread < 64) {
+    const float brightest = *std::max_element(cube.data().begin(), cube.data().end());
+    levels.sun_spread *= std::max(1.02, 1.01 * std::sqrt(brightest / output::kLargestHalf));
+    FrameLight light = request.light;
+    light.disc = widened(request.light.disc, levels.sun_spread);
+    cube = sky;
+    light.add_disc_rows(view, 0, cube, times);
   }
-  const StageTimer timer(times, Stage::product);
-  image::add_filtered_lights(view, disc, alpha, cube);
-  levels.sun_roughness = std::sqrt(alpha);
 }
 
 /// Levels from 1 on.
@@ -88,7 +109,7 @@ Result<Levels> levels_of(const ProductRequest& request, const image::Camera& cam
   levels.roughness.push_back(0);
   add_filtered(request, camera, *sky, disc, least, levels, times);
   levels.cubes.front() = sky_side == side ? *std::move(sky) : image::shrunk_cube(*sky, side);
-  add_mirrored_disc(request, camera, disc, least, levels, times);
+  if (!disc.empty()) add_mirrored_disc(request, camera, levels, times);
   return levels;
 }
 
@@ -122,7 +143,7 @@ Result<std::vector<ProductFile>> make_specular(const ProductRequest& request, St
                         times);
     if (!file) return file.error();
     file->encoding["true_horizontal_lux"] = true_lux;
-    file->encoding["sun_roughness"] = levels->sun_roughness;
+    file->encoding["sun_spread"] = levels->sun_spread;
     files.push_back(*std::move(file));
     return files;
   }
@@ -137,7 +158,7 @@ Result<std::vector<ProductFile>> make_specular(const ProductRequest& request, St
       file.encoding = {{"horizontal_lux", lux},
                        {"true_horizontal_lux", true_lux},
                        {"roughness", levels->roughness[level]}};
-      if (level == 0) file.encoding["sun_roughness"] = levels->sun_roughness;
+      if (level == 0) file.encoding["sun_spread"] = levels->sun_spread;
       files.push_back(std::move(file));
     }
   }
