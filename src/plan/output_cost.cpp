@@ -37,10 +37,10 @@ OutputCost cost_of_image(const config::ImageOutput& image, const config::CameraC
   return {pixels * rate.nanoseconds * 1e-9, pixels * rate.bytes};
 }
 
-/// Of products, as the milliseconds in manifests have them: gathering the light of the whole
-/// sphere, filtering it for reflection, and a pixel of each.
-constexpr double kGatherSeconds = 0.025, kSpecularSeconds = 0.4;
-constexpr double kSpecularNs = 1600, kIrradianceNs = 1300;
+/// Of products, as bench_lighting and the milliseconds in manifests have them: gathering the light
+/// of the whole sphere, filtering it for reflection, and a pixel of each.
+constexpr double kGatherSeconds = 0.025, kSpecularSeconds = 0.1;
+constexpr double kSpecularNs = 500, kIrradianceNs = 1300;
 constexpr double kTextBytes = 2e3;
 
 OutputCost cost_of_product(const config::ProductOutput& product) {

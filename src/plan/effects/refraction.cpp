@@ -41,8 +41,8 @@ Verdict judge_refraction(const Plan& plan, const Frame& frame) {
   if (lift == Angle{}) return {false, "it lifts the sun by 0 arcmin", 0, kSeconds};
   const std::string reason = fmt::format("lifts the sun by {:.2f} arcmin", lift.in(arcmin));
   const Angle reach = frame.sky.sun_radius + lift;
-  const bool disc = plan.job.sky.sun_disc &&
-                    plan.sights[frame.camera].sees_disc(frame.sky.sun_true, reach, 4);
+  const bool disc =
+      plan.job.sky.sun_disc && plan.sights[frame.camera].sees_disc(frame.sky.sun_true, reach, 4);
   if (disc || at < kLowSun) return {true, reason, {}, kSeconds};
   const double bound = lift.in(rad)*slope_of_light(plan, frame, at);
   return {bound > kLeaveBelow, reason, bound, kSeconds};
