@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "output/stored_numbers.h"
 
 namespace skylapse::output {
 namespace {
@@ -62,6 +63,7 @@ void RangeSurvey::add(std::span<const float> rgb, std::span<const float> kept, i
           if (std::fabs(v) > row.largest) row.largest = std::fabs(v);
           row.sum += std::isnan(v) ? 0.0 : double(v);
           row.kept_sum += std::isnan(k) ? 0.0 : double(k);
+          row.half_sum += std::isnan(k) ? 0.0 : double(rounded_to_half(k));
         }
       }
       if (same) row.kept_beyond_half = row.pixels_beyond_half;
@@ -73,10 +75,15 @@ void RangeSurvey::add(std::span<const float> rgb, std::span<const float> kept, i
     kept_beyond_half += row.kept_beyond_half;
     sum += row.sum;
     kept_sum += row.kept_sum;
+    half_sum += row.half_sum;
   }
 }
 
-Result<SunPolicyRecord> decide_sun_policy(const RangeSurvey& survey, SunPolicy policy) {
+bool RangeSurvey::underflows_half() const {
+  return kept_sum > 0 && std::fabs(half_sum / kept_sum - 1) > kLargestHalfLoss;
+}
+
+Result<SunPolicyRecord> decide_sun_policy(const RangeSurvey& survey, SunPolicy policy, bool half) {
   SunPolicyRecord record{.policy = policy, .pixels_beyond_half = survey.pixels_beyond_half};
   const bool fits = survey.pixels_beyond_half == 0;
   switch (policy) {
@@ -90,7 +97,7 @@ Result<SunPolicyRecord> decide_sun_policy(const RangeSurvey& survey, SunPolicy p
       return record;
     case SunPolicy::scale:
       if (std::isinf(survey.largest)) return refused(survey.largest);
-      if (!fits) record.scale = fitting_scale(survey.largest);
+      if (!fits || (half && survey.underflows_half())) record.scale = fitting_scale(survey.largest);
       return record;
     case SunPolicy::split:
       record.pixels_beyond_half = survey.kept_beyond_half;

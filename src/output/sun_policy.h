@@ -15,8 +15,8 @@ inline constexpr float kLargestHalf = 65504.0f;
 /// What became of a frame on its way into such a file; written to metadata and manifest.
 struct SunPolicyRecord {
   SunPolicy policy = SunPolicy::clip;
-  /// Stored = radiance * scale; a power of two, 1 unless the policy is `scale`. Value 1 in the file
-  /// then stands for 683 / scale cd/m^2.
+  /// Stored = radiance * scale; a power of two, above 1 for dark pictures, 1 unless the policy is
+  /// `scale`. Value 1 in the file then stands for 683 / scale cd/m^2.
   double scale = 1.0;
   /// Pixels with a channel beyond 65504 before the policy acted.
   long pixels_beyond_half = 0;
@@ -28,6 +28,10 @@ struct SunPolicyRecord {
 /// True if some finite or infinite sample lies outside +-65504. NaN does not count.
 bool exceeds_half(const image::FrameBuffer& frame);
 
+/// Share of a picture's sum of samples that may be lost or gained by half floats without a sun in
+/// it, before policies that can help do. Rounding of usual skies is below 1e-5.
+inline constexpr double kLargestHalfLoss = 0.001;
+
 /// What a policy must know of a picture before any of it is written, gathered in pieces of rows.
 /// The same for any pieces and any number of threads.
 struct RangeSurvey {
@@ -36,10 +40,14 @@ struct RangeSurvey {
   double sum = 0;               // of all samples but NaN
   double kept_sum = 0;          // the same of what `kept` holds, cut to 65504
   long kept_beyond_half = 0;
+  double half_sum = 0;  // of `kept_sum`'s samples as half floats
 
   /// Adds rows of `width` pixels. `kept`: the rows that will be written, of the same size: those
   /// without the disc for `split`, else `rgb` itself.
   void add(std::span<const float> rgb, std::span<const float> kept, int width);
+  /// Whether half floats are too coarse for the picture: their sum is off by more than
+  /// kLargestHalfLoss. Moonless nights are: below 6e-8 (4e-5 cd/m^2) there are none.
+  [[nodiscard]] bool underflows_half() const;
 };
 
 /// What becomes of a picture with that range.
@@ -47,10 +55,12 @@ struct RangeSurvey {
 ///   refuse  error (invalid_input) naming the brightest sample, if there is one beyond 65504
 ///   clip    samples are limited to +-65504
 ///   scale   all samples are multiplied by the largest power of two that makes them fit (exact but
-///           for numbers that fall below the smallest half, 6e-8)
+///           for numbers that fall below the smallest half, 6e-8), if they do not, or if `half` and
+///           they are so dark that half floats are too coarse for them
 ///   split   the picture without the disc is written; whatever of that still exceeds 65504 is
 ///           clipped and counted
-Result<SunPolicyRecord> decide_sun_policy(const RangeSurvey& survey, SunPolicy policy);
+Result<SunPolicyRecord> decide_sun_policy(const RangeSurvey& survey, SunPolicy policy,
+                                          bool half = true);
 
 /// Does to samples what was decided; of `split` they are those without the disc.
 void apply_sun_policy(std::span<float> rgb, const SunPolicyRecord& decided);

@@ -277,10 +277,16 @@ Status write_texture(const FrameSource& source, size_t index, const std::string&
   auto meta = metadata_of(source.plan, source.frame, source.light, fingerprint);
   output::SampleType type = output.sample_type;
   if (type == output::SampleType::half_float) {
-    const auto policy = output::apply_sun_policy(strip, output.sun_policy, &*sky);
+    const bool split = output.sun_policy == output::SunPolicy::split;
+    output::RangeSurvey survey;
+    survey.add(strip.data(), (split ? *sky : strip).data(), strip.width());
+    const auto policy = output::decide_sun_policy(survey, output.sun_policy);
     if (!policy) return at_sun_policy(output, policy.error());
+    if (split) strip = *sky;
+    output::apply_sun_policy(strip.data(), *policy);
     meta.sun_policy = *policy;
-    if (policy->policy == output::SunPolicy::float32 && policy->pixels_beyond_half > 0)
+    if (policy->policy == output::SunPolicy::float32 &&
+        (policy->pixels_beyond_half > 0 || survey.underflows_half()))
       type = output::SampleType::float32;
   }
   auto made = make_cube_texture(strip, camera, type, meta, output.orientation, own);

@@ -127,12 +127,14 @@ output::FrameMetadata ImageFile::metadata() const {
 
 Status ImageFile::open() {
   if (needs_survey()) {
-    auto decided = output::decide_sun_policy(survey_, output_.sun_policy);
+    auto decided =
+        output::decide_sun_policy(survey_, output_.sun_policy, type_ == SampleType::half_float);
     if (!decided) {
       return at_sun_policy(output_, decided.error());
     }
     policy_ = *decided;
-    if (policy_->policy == SunPolicy::float32 && policy_->pixels_beyond_half > 0)
+    if (policy_->policy == SunPolicy::float32 &&
+        (policy_->pixels_beyond_half > 0 || survey_.underflows_half()))
       type_ = SampleType::float32;
   }
   output::EncodeRequest request;

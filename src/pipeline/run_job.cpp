@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <set>
@@ -26,23 +27,53 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What the sun policy `clip` cost.
-struct Clipped {
+/// Files that hold other light than they should.
+struct WrongLight {
   long files = 0;
-  double percent = 0;  // the most that one of them lost
+  double percent = 0;  // the most that one of them is off
   std::string path;    // that one
 
-  void take(const LedgerEntry& entry) {
-    const auto share = entry.encoding.find("clipped_fraction");
-    if (share == entry.encoding.end()) return;
-    const auto error = entry.encoding.find("error_percent");
-    const bool weighed = error != entry.encoding.end();
-    merge({1, weighed ? std::max(0.0, -error->second) : 100 * share->second, entry.path});
-  }
-  void merge(const Clipped& other) {
+  void merge(const WrongLight& other) {
     files += other.files;
     if (other.files > 0 && (path.empty() || other.percent > percent))
       percent = other.percent, path = other.path;
+  }
+};
+
+/// What encoding cost the light of files: by the sun policy `clip`, and otherwise.
+struct EncodingLosses {
+  WrongLight clipped, others;
+
+  void take(const LedgerEntry& entry) {
+    constexpr double kPromisedPercent = 0.5;
+    const auto find = [&](const char* key) -> std::optional<double> {
+      const auto found = entry.encoding.find(key);
+      return found == entry.encoding.end() ? std::nullopt : std::optional(found->second);
+    };
+    const auto share = find("clipped_fraction"), error = find("error_percent");
+    const double percent = std::fabs(error ? *error : 100 * share.value_or(0));
+    if (share)
+      clipped.merge({1, percent, entry.path});
+    else if (percent > kPromisedPercent)
+      others.merge({1, percent, entry.path});
+  }
+  void merge(const EncodingLosses& other) {
+    clipped.merge(other.clipped);
+    others.merge(other.others);
+  }
+  [[nodiscard]] std::vector<std::string> notes() const {
+    std::vector<std::string> all;
+    const auto text = [](const WrongLight& wrong) {
+      return fmt::format("{} file{}, at most {:.3g} % ({})", wrong.files,
+                         wrong.files == 1 ? "" : "s", wrong.percent, wrong.path);
+    };
+    if (clipped.files > 0)
+      all.push_back("sun: clip cut light off in " + text(clipped) +
+                    "; sun: float, split or scale keep it");
+    if (others.files > 0)
+      all.push_back("light on level ground is off in " + text(others) +
+                    "; of half floats, type: float or sun: scale keep it");
+    return all;
   }
 };
 
@@ -52,7 +83,7 @@ struct Task {
   std::vector<size_t> missing;
   StageTimes times;
   uintmax_t bytes = 0;
-  Clipped clipped;
+  EncodingLosses losses;
   std::optional<Error> error;
 };
 
@@ -64,7 +95,7 @@ class Collector {
 
   [[nodiscard]] bool failed() const { return failed_.load(); }
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
-  [[nodiscard]] const Clipped& clipped() const { return clipped_; }
+  [[nodiscard]] const EncodingLosses& losses() const { return losses_; }
 
   void take(const Task& task) {
     if (task.error) {
@@ -75,7 +106,7 @@ class Collector {
     task.missing.empty() ? ++summary_.kept : ++summary_.rendered;
     summary_.times += task.times;
     summary_.bytes_written += task.bytes;
-    clipped_.merge(task.clipped);
+    losses_.merge(task.losses);
     if (job_.options.on_progress)
       job_.options.on_progress({summary_.kept + summary_.rendered, long(job_.options.frames.size()),
                                 summary_.kept, seconds_since(start_), "frames"});
@@ -87,7 +118,7 @@ class Collector {
   Clock::time_point start_;
   std::atomic<bool> failed_ = false;
   std::optional<Error> error_;
-  Clipped clipped_;
+  EncodingLosses losses_;
 };
 
 void find_missing(const JobContext& job, Task& task) {
@@ -115,7 +146,7 @@ void run_task(const JobContext& job, Task& task) {
   const auto fingerprint_of = [&](size_t output) { return job.fingerprint(frame, output); };
   const auto record = [&](const LedgerEntry& entry) {
     task.bytes += entry.bytes;
-    task.clipped.take(entry);
+    task.losses.take(entry);
     return job.ledger.record(entry);
   };
   const auto keep_error = [&](const Status& status) {
@@ -154,12 +185,7 @@ std::optional<Error> render_all(const JobContext& job, RunSummary& summary,
   run_pipeline<Task>(
       size_t(frames_in_flight(job.plan, threads)), feed, [&](Task& task) { run_task(job, task); },
       [&](Task& task) { collector.take(task); }, FinishOrder::as_done);
-  if (const Clipped& clipped = collector.clipped(); clipped.files > 0)
-    summary.notes.push_back(
-        fmt::format("sun: clip cut light off in {} file{}, at most {:.3g} % ({}); sun: float, "
-                    "split or scale keep "
-                    "it",
-                    clipped.files, clipped.files == 1 ? "" : "s", clipped.percent, clipped.path));
+  for (const std::string& note : collector.losses().notes()) summary.notes.push_back(note);
   if (collector.error()) return collector.error();
   if (job.stopped()) return interrupted();
   return {};

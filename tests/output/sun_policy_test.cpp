@@ -54,6 +54,42 @@ TEST(SunPolicy, ScaleIsTheLargestPowerOfTwoThatFitsAndLosesNothing) {
   }
 }
 
+/// Luminance of a moonless night: 1e-4 cd/m^2 is 1.5e-7.
+image::FrameBuffer night() {
+  image::FrameBuffer frame(4, 2);
+  for (size_t i = 0; i < frame.data().size(); ++i) frame.data()[i] = 4e-8f + 1e-9f * float(i);
+  return frame;
+}
+
+TEST(SunPolicy, ScaleLiftsWhatIsTooDarkForHalfFloatsAndOnlyForThem) {
+  RangeSurvey survey;
+  const auto frame = night();
+  survey.add(frame.data(), frame.data(), frame.width());
+  EXPECT_TRUE(survey.underflows_half());
+  const auto half = decide_sun_policy(survey, SunPolicy::scale);
+  ASSERT_TRUE(half.ok());
+  EXPECT_GT(half->scale, 1e11);
+  EXPECT_EQ(std::exp2(std::round(std::log2(half->scale))), half->scale);
+  EXPECT_EQ(decide_sun_policy(survey, SunPolicy::scale, false)->scale, 1.0);
+  RangeSurvey day;
+  const auto bright = with_sun(60000.0f);
+  day.add(bright.data(), bright.data(), bright.width());
+  EXPECT_FALSE(day.underflows_half());
+}
+
+TEST(SunPolicy, ASurveyInPiecesIsThatOfTheWhole) {
+  const auto frame = with_sun(1e6f), sky = with_sun(10.0f);
+  RangeSurvey whole, pieces;
+  whole.add(frame.data(), sky.data(), 4);
+  for (int y = 0; y < 2; ++y) pieces.add({frame.row(y), 12}, {sky.row(y), 12}, 4);
+  EXPECT_EQ(pieces.sum, whole.sum);
+  EXPECT_EQ(pieces.kept_sum, whole.kept_sum);
+  EXPECT_EQ(pieces.half_sum, whole.half_sum);
+  EXPECT_EQ(pieces.largest, whole.largest);
+  EXPECT_EQ(pieces.pixels_beyond_half, 1);
+  EXPECT_EQ(pieces.kept_beyond_half, 0);
+}
+
 TEST(SunPolicy, ScaleLeavesFittingImagesAlone) {
   auto frame = with_sun(65504.0f);
   const auto record = apply_sun_policy(frame, SunPolicy::scale);
