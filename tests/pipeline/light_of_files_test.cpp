@@ -112,6 +112,27 @@ TEST(LightOfFiles, WhatClipLosesIsRecordedAndTold) {
   EXPECT_NE(notes[0].find("clip cut light off in 1 file,"), std::string::npos) << notes[0];
 }
 
+TEST(LightOfFiles, HalfFilesOfMoonlessNightsKeepTheirLightOrSaySo) {
+  const TemporaryFolder folder;
+  std::vector<std::string> notes;
+  std::string scene = scene_of_suns(
+      "{image: s.exr, type: half, sun: scale}, {image: f.exr, type: half, sun: float}, {image: "
+      "c.exr, type: half, sun: clip}",
+      "-18.3 deg");
+  const std::string fitted = "hosek-wilkie";  // which has no nights
+  scene.replace(scene.find(fitted), fitted.size(), "bruneton, level: draft");
+  const auto manifest = rendered(scene, folder.path(), &notes);
+  const auto& files = manifest["frames"][0]["files"];
+  ASSERT_GT(files[0]["encoding"]["true_horizontal_lux"], 0.0);
+  EXPECT_GT(files[0]["encoding"]["scale"], 1.0);
+  EXPECT_EQ(files[1]["encoding"]["stored_bits"], 32);
+  for (int i = 0; i < 2; ++i)
+    EXPECT_LT(std::abs(files[i]["encoding"]["error_percent"].get<double>()), 0.5) << i;
+  EXPECT_LT(files[2]["encoding"]["error_percent"], -0.5);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("is off in 1 file,"), std::string::npos) << notes[0];
+}
+
 TEST(LightOfFiles, AFileHoldsTheLightThatItsRecordClaims) {
   const TemporaryFolder folder;
   const auto manifest =
