@@ -6,9 +6,10 @@
 // own scale and bias, is the renderer's.
 //
 // The disc is filtered as what it is, a small source in closed form, apart from the sky. The first
-// level shows it pixel by pixel where numbers reach that far (float, hdr). Half floats end at 65504:
-// there the disc is wider, with all its light, by the factor that the manifest has as "sun_spread":
-// 6 at noon, 1 on the horizon. Levels that are blurred more than that are not touched by it.
+// level shows it pixel by pixel where numbers reach that far (float, hdr). Half floats end at
+// 65504: there the disc is wider, with all its light, by the factor that the manifest has as
+// "sun_spread": 6 at noon, 1 on the horizon. Levels that are blurred more than that are not touched
+// by it.
 #include "pipeline/products/product.h"
 
 namespace skylapse::pipeline {
