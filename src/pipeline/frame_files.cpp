@@ -45,7 +45,8 @@ struct RowRange {
 /// All rows in the order of the files, in ranges of at most `strip_pixels`.
 std::vector<RowRange> row_ranges(const OutputView& view, size_t strip_pixels) {
   const image::Camera& camera = view.camera.camera;
-  const int most = int(std::max<size_t>(1, strip_pixels / size_t(camera.width)));
+  const int most =
+      int(std::clamp<size_t>(strip_pixels / size_t(camera.width), 1, size_t(camera.height)));
   const bool by_face =
       view.reorders_faces() && camera.cube_layout == image::CubeLayout::vertical_strip;
   const int blocks = by_face ? 6 : 1, block_rows = camera.height / blocks;
