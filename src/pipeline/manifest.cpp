@@ -236,9 +236,17 @@ ordered_json atmosphere_json(const JobContext& job) {
             {"samples", sky.paths.samples},
             {"relative_error", sky.paths.relative_error ? ordered_json(*sky.paths.relative_error)
                                                         : ordered_json(nullptr)},
-            {"seed", sky.paths.seed}};
+            {"seed", sky.paths.seed},
+            {"orders", sky.orders}};
+  // 0 and null: the model's own choice.
+  constexpr std::array kPrecisions{"half", "float", "double"};
   return {{"level", sky::bruneton::name_of(sky.level)},
           {"wavelengths", sky.wavelengths},
+          {"orders", sky.orders},
+          {"steps", sky.steps},
+          {"slice", sky.slice_azimuths > 0 ? ordered_json{sky.slice_azimuths, sky.slice_zeniths}
+                                           : ordered_json(nullptr)},
+          {"precision", kPrecisions[size_t(sky.precision)]},
           {"computed_by", computed_by_json(job)}};
 }
 

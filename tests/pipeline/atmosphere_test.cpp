@@ -198,6 +198,9 @@ TEST_F(Atmosphere, ManifestSaysWhatComputedItAndAResumedRunKeepsThat) {
   EXPECT_EQ(made["model"], "bruneton");
   EXPECT_EQ(made["atmosphere"]["level"], "draft");
   EXPECT_EQ(made["atmosphere"]["wavelengths"], 4);
+  EXPECT_EQ(made["atmosphere"]["precision"], "float");
+  EXPECT_EQ(made["atmosphere"]["orders"], 0);
+  EXPECT_TRUE(made["atmosphere"]["slice"].is_null());
   const auto computed = made["atmosphere"]["computed_by"];
   for (const char* key : {"backend", "vendor", "renderer", "version"})
     EXPECT_NE(computed[key], "") << key;
