@@ -5,6 +5,7 @@
 
 #include "config/output_section.h"
 #include "config/words.h"
+#include "image/orientation.h"
 
 namespace skylapse::config {
 namespace {
@@ -128,6 +129,11 @@ std::optional<ProductOutput> build_product(const OutputItem& item, ProductKind k
   if (out.format == "usda") out.orientation = Orientation::usd;
   if (const auto word = item.section.get<std::string>("orientation"))
     out.orientation = *value_of(kOrientationWords, *word);
+  if (out.format == "usda" && glm::determinant(image::enu_to_world(out.orientation)) < 0)
+    item.context.errors.add(
+        item.section.place_of("orientation"),
+        fmt::format("{} is left-handed, and USD stages are not", image::name_of(out.orientation)),
+        "allowed in usda: usd, openexr, blender, three, gltf, mitsuba");
   const bool has_pixels = kind == ProductKind::specular || kind == ProductKind::irradiance;
   if (has_pixels && out.orientation == Orientation::pbrt)
     item.no_meaning("orientation", "pbrt reads square octahedral maps alone");

@@ -68,6 +68,9 @@ std::optional<Problem> path_template_problem(std::string_view path) {
     if (c == ' ' && path[0] != '/')
       return Problem{"the name holds a space", "use - or _: a space splits names in scripts", i, 1};
     if (c == '\\') return Problem{"the name holds a backslash", "folders are divided by /", i, 1};
+    if (c == '?')
+      return Problem{"the name holds a question mark",
+                     "it means something to image libraries and to shells", i, 1};
     if (c == '/') name_begin = i + 1;
     if (i >= name_begin + kLongestName)
       return Problem{"the name of a file or folder is too long",

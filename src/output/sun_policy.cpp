@@ -32,6 +32,12 @@ Error refused(float largest) {
           .hint = "write 32-bit floats, or choose the sun policy clip, scale or split"};
 }
 
+Error too_dark() {
+  return {.code = ErrorCode::invalid_input,
+          .message = "the image is too dark for half floats, which end at 6e-8",
+          .hint = "write 32-bit floats, or choose the sun policy float or scale"};
+}
+
 /// The largest power of two that brings `largest` to 65504 or less.
 double fitting_scale(float largest) {
   int exponent = 0;
@@ -91,6 +97,7 @@ Result<SunPolicyRecord> decide_sun_policy(const RangeSurvey& survey, SunPolicy p
       return record;
     case SunPolicy::refuse:
       if (!fits) return refused(survey.largest);
+      if (half && survey.underflows_half()) return too_dark();
       return record;
     case SunPolicy::clip:
       if (!fits) record.lost_fraction = lost_share(survey.sum, survey.kept_sum);

@@ -52,7 +52,8 @@ struct RangeSurvey {
 
 /// What becomes of a picture with that range.
 ///   float32 it is left as it is: the file's type follows
-///   refuse  error (invalid_input) naming the brightest sample, if there is one beyond 65504
+///   refuse  error (invalid_input) naming the brightest sample, if there is one beyond 65504, or if
+///           `half` and the picture is too dark for half floats
 ///   clip    samples are limited to +-65504
 ///   scale   all samples are multiplied by the largest power of two that makes them fit (exact but
 ///           for numbers that fall below the smallest half, 6e-8), if they do not, or if `half` and

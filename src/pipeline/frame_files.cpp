@@ -118,6 +118,10 @@ Result<LedgerEntry> write_whole(const FrameSource& source, const std::string& fi
   entry.sha256 = sha256_hex(made.bytes);
   entry.bytes = made.bytes.size();
   entry.encoding = made.encoding;
+  const auto held = made.encoding.find("horizontal_lux");
+  const auto whole = made.encoding.find("true_horizontal_lux");
+  if (held != made.encoding.end() && whole != made.encoding.end() && whole->second > 0)
+    entry.encoding.try_emplace("error_percent", 100 * (held->second / whole->second - 1));
   return entry;
 }
 
@@ -192,7 +196,8 @@ std::vector<ViewGroup> group_by_view(const plan::Plan& plan, const plan::Frame& 
     const OutputView view = view_of_output(plan, frame, *image);
     const auto known = std::find_if(groups.begin(), groups.end(), [&](const ViewGroup& group) {
       return same_camera(group.view.camera.camera, view.camera.camera) &&
-             group.view.faces == view.faces;
+             group.view.faces == view.faces &&
+             group.view.camera.cube_faces_apart == view.camera.cube_faces_apart;
     });
     if (known != groups.end())
       known->outputs.push_back(o);

@@ -115,6 +115,9 @@ TEST(LibraryErrors, ViewsOfTheirOwn) {
             kPlace +
                 "orientation] outputs.0.orientation has no meaning here | pbrt reads square "
                 "octahedral maps alone");
+  EXPECT_THAT(error_at("{sun: a.####.usda, orientation: unreal}"),
+              HasSubstr("unreal is left-handed, and USD stages are not"));
+  EXPECT_EQ(error_at("{sun: a.####.json, orientation: unreal}"), "no error");
   EXPECT_EQ(error_at("{image: a.####.exr, projection: octahedral, orientation: usd}"),
             kPlace +
                 "orientation] outputs.0.orientation has no meaning here | octahedral maps are "

@@ -77,6 +77,14 @@ TEST(SunPolicy, ScaleLiftsWhatIsTooDarkForHalfFloatsAndOnlyForThem) {
   EXPECT_FALSE(day.underflows_half());
 }
 
+TEST(SunPolicy, RefuseLetsNoNightVanishInHalfFloats) {
+  RangeSurvey survey;
+  const auto frame = night();
+  survey.add(frame.data(), frame.data(), frame.width());
+  EXPECT_FALSE(decide_sun_policy(survey, SunPolicy::refuse, true).ok());
+  EXPECT_TRUE(decide_sun_policy(survey, SunPolicy::refuse, false).ok());
+}
+
 TEST(SunPolicy, ASurveyInPiecesIsThatOfTheWhole) {
   const auto frame = with_sun(1e6f), sky = with_sun(10.0f);
   RangeSurvey whole, pieces;

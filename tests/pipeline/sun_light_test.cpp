@@ -118,6 +118,29 @@ TEST(SunLight, PointsAtTheSunInTheAxesOfEveryOrientation) {
   }
 }
 
+// From a mountain or an orbit the sun is seen below elevation 0 too, where level ground has none of
+// it.
+TEST(SunLight, OfALowSunSeenFromAHeightGivesLevelGroundTheIrradianceOfItsDisc) {
+  for (const char* height : {"3000 m", "400 km"}) {
+    const Lit lit(std::string("location: {name: High, latitude: 46, longitude: 8, height: ") +
+                  height +
+                  "}\ntime: {zone: UTC, date: 2026-03-20, sun_elevations: [1 deg, 0.1 deg, 0 deg, "
+                  "-0.5 deg], half: morning}\n"
+                  "camera: {projection: lat-long, size: 16x8}\n"
+                  "sky: {model: bruneton, level: draft, wavelengths: 3}\n"
+                  "outputs: [{image: a.####.exr}]\n");
+    ASSERT_EQ(lit.plan.frames.size(), 4U);
+    for (size_t f = 0; f < lit.plan.frames.size(); ++f) {
+      const auto made =
+          lit.make(product(config::ProductKind::sun, "json", image::Orientation::usd), f);
+      ASSERT_TRUE(made.ok());
+      const double truth = made->front().encoding.at("true_horizontal_lux");
+      EXPECT_NEAR(made->front().encoding.at("horizontal_lux"), truth, 1e-9 * truth)
+          << height << ", frame " << f;
+    }
+  }
+}
+
 TEST(SunLight, OfALeftHandedProgramHasNoUsdStage) {
   const Lit lit(scene("'09:00'", "{image: a.####.exr}"));
   for (const auto orientation : {image::Orientation::unity, image::Orientation::unreal}) {
@@ -142,10 +165,10 @@ TEST(SunLight, GivesLevelGroundTheIrradianceOfTheDiscWhereverItStands) {
     const double truth = kLuminousEfficacy * lit.lights[f].disc_energy.horizontal_irradiance.y;
     EXPECT_NEAR(j["horizontal_irradiance"]["lux"].get<double>(), truth, 1e-9 * truth);
     EXPECT_EQ(made->front().encoding.at("true_horizontal_lux"), truth);
-    // A direction instead of a disc: the sine is averaged over half a degree. In the job's space a
-    // low sun has negative parts, which pictures and lights hold as 0.
+    // A direction instead of a disc: the sine is averaged over half a degree. A low sun's direction
+    // and colour are chosen to be exact.
     const bool low = elevation(lit.lights[f].disc.centre) < 5 * deg;
-    const double bound = low ? 0.01 : 1e-4;
+    const double bound = low ? 1e-9 : 1e-4;
     EXPECT_NEAR(made->front().encoding.at("horizontal_lux"), truth, bound * truth) << "frame " << f;
     cut = cut || j["state"] == "on the horizon";
     if (j["state"] == "below the horizon") {

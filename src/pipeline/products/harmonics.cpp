@@ -85,7 +85,8 @@ Result<std::vector<ProductFile>> make_harmonics(const ProductRequest& request, S
   const glm::dvec3 up = axes * glm::dvec3(0, 0, 1);
   file.encoding = {
       {"horizontal_lux", horizontal_lux(request.light, image::irradiance_of(light, up))},
-      {"true_horizontal_lux", true_horizontal_lux(request)}};
+      {"true_horizontal_lux", true_horizontal_lux(request)},
+      {"terms", 9}};
   return std::vector<ProductFile>{std::move(file)};
 }
 

@@ -34,11 +34,18 @@ constexpr Angle kLowSun = 5 * deg;
 Direction<Enu> centre_of_light(const sky::SunDisc& disc, const sky::DiscEnergy& energy) {
   const Angle centre = elevation(disc.centre);
   const double normal = energy.normal_irradiance.y, level = energy.horizontal_irradiance.y;
-  if (disc.horizon == Angle{} && centre < kLowSun && normal > 0)
+  if (centre < kLowSun && level > 0 && normal > 0)
     return enu_direction(azimuth(disc.centre), std::asin(std::min(level / normal, 1.0)) * rad);
   if (state_of(disc) != SunState::on_horizon) return disc.centre;
   const Angle upper = centre + half_height(disc);
   return enu_direction(azimuth(disc.centre), (disc.horizon + upper) / 2);
+}
+
+/// A red sun lies outside small gamuts: cutting a negative channel off adds luminance, which is
+/// taken back from the others.
+glm::dvec3 of_luminance(double y, const glm::dvec3& rgb, const glm::dmat3& rgb_to_xyz) {
+  const double has = (rgb_to_xyz * rgb).y;
+  return has > 0 ? rgb * (y / has) : rgb;
 }
 
 std::string_view word_of(SunState state) {
@@ -134,10 +141,11 @@ SunLight sun_light_of(const FrameLight& light) {
   sun.from = light.disc.centre;
   if (sun.state == SunState::below) return sun;
   const sky::DiscEnergy rgb = sky::disc_energy(light.disc);
+  const glm::dmat3 rgb_to_xyz = glm::inverse(light.xyz_to_rgb);
   sun.normal_xyz = light.disc_energy.normal_irradiance;
   sun.horizontal_xyz = light.disc_energy.horizontal_irradiance;
-  sun.normal_rgb = rgb.normal_irradiance;
-  sun.horizontal_rgb = rgb.horizontal_irradiance;
+  sun.normal_rgb = of_luminance(sun.normal_xyz.y, rgb.normal_irradiance, rgb_to_xyz);
+  sun.horizontal_rgb = of_luminance(sun.horizontal_xyz.y, rgb.horizontal_irradiance, rgb_to_xyz);
   sun.from = centre_of_light(light.disc, light.disc_energy);
   return sun;
 }
