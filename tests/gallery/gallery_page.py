@@ -38,6 +38,21 @@ outputs:
     image: "preview/{site}_{date}_{sun_elevation}_t{turbidity}.jpg"
 """
 
+# A map and a cube in one library, two grounds, and a camera so high that the sun is seen far below the level.
+CAMERAS = """
+location: {name: Orbit, latitude: 0, longitude: 0, height: 400 km}
+time: {zone: UTC, dates: [2026-03-20], sun_elevations: [-14 deg], half: afternoon}
+air: {ground_albedo: [0.1, grass]}
+sky: {model: single-scattering}
+cameras:
+  - {name: whole sky, projection: lat-long, size: 64x32}
+  - {name: six faces, projection: cube, size: 16}
+outputs:
+  - image: "{camera}_{albedo}.png"
+  - gallery: index.html
+    image: "{camera}_{albedo}.png"
+"""
+
 
 def cards(page):
     return page.eval("[...document.querySelectorAll('.sky')].map(c => Number(c.dataset.number))")
@@ -127,6 +142,42 @@ def try_detail(page, skies, folder):
     check(page.eval("document.activeElement.dataset.number") == str(cards(page)[2]), "the focus is lost")
 
 
+def try_cameras(program, skylapse, temporary, screenshots):
+    """A picture that is no map is shown flat; cards tell skies of one moment apart."""
+    folder = pathlib.Path(temporary) / "cameras"
+    render(skylapse, CAMERAS, folder)
+    browser = Browser(program, os.path.join(temporary, "profile-cameras"))
+    try:
+        page = Page(browser, (folder / "index.html").resolve().as_uri(), 1280, 900)
+        texts = page.eval("[...document.querySelectorAll('.sky')].map(c => c.innerText)")
+        check(len(set(texts)) == len(texts) == 4, f"cards look alike: {texts}")
+        skies = skies_of(folder)
+        for number in cards(page):
+            page.eval(f"document.querySelector('[data-number=\"{number}\"]').click()")
+            page.eval("new Promise(done => setTimeout(done, 300))")
+            is_map = skies[number]["camera"] == "whole sky"
+            check(page.eval("!!document.querySelector('.view canvas')") == is_map, f"sky {number}: a wrong view")
+            check(page.eval("!!document.querySelector('.view img')") != is_map, f"sky {number}: no flat picture")
+            # The horizon is 20 degrees down, the view opens no nearer to it than 10.
+            check(not is_map or "10\u00b0 down" in page.eval("document.querySelector('.view p').textContent"),
+                  "the view does not open on the sun")
+            if screenshots and number == 1:
+                page.screenshot(os.path.join(screenshots, "gallery_cameras_detail.png"))
+            press(page, "Escape")
+        if screenshots:
+            page.screenshot(os.path.join(screenshots, "gallery_cameras.png"))
+        check_events(browser.events)
+    finally:
+        browser.close()
+
+
+def render(skylapse, text, folder):
+    scene = folder.with_name(folder.name + ".yaml")
+    scene.write_text(text)
+    subprocess.run([skylapse, "render", str(scene), "-o", str(folder)], check=True,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
 def try_out(page, skies, folder):
     check(page.eval("document.getElementById('title').textContent") == "Two <cities> & more", "the title")
     page.eval("new Promise(done => setTimeout(done, 300))")
@@ -185,10 +236,7 @@ def main():
         folder = pathlib.Path(temporary) / "a library #1"
         page_file = pathlib.Path(arguments.page) if arguments.page else folder / "pages" / "index.html"
         if not arguments.page:
-            scene = pathlib.Path(temporary) / "library.yaml"
-            scene.write_text(LIBRARY)
-            subprocess.run([arguments.skylapse, "render", str(scene), "-o", str(folder)], check=True,
-                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            render(arguments.skylapse, LIBRARY, folder)
             check(not re.search(r"https?://(?!www\.w3\.org)", page_file.read_text()), "the page names a host")
         for name, width, height, dark in (("desktop", 1280, 900, False), ("phone", 390, 844, False),
                                           ("dark", 1280, 900, True)):
@@ -209,6 +257,7 @@ def main():
                 browser.close()
         if not arguments.page:
             try_many(program, temporary, page_file)
+            try_cameras(program, arguments.skylapse, temporary, arguments.screenshots)
     print("the gallery works: desktop, phone, dark, thousands of skies")
     return 0
 

@@ -8,6 +8,7 @@
 
 #include "core/constants.h"
 #include "core/version.h"
+#include "pipeline/library/sheet.h"
 #include "pipeline/library/web_page.h"
 #include "pipeline/output_view.h"
 #include "pipeline/products/dome.h"
@@ -87,16 +88,6 @@ class Gallery {
             {"without_disc", without_disc}};
   }
 
-  Json shape_of_preview(const plan::Frame& frame) const {
-    const config::CameraConfig camera = preview_camera(frame);
-    const bool lat_long = camera.camera.projection == image::Projection::lat_long;
-    const int faces = camera.cube_faces_apart ? 6 : 1;  // of a strip, one is shown
-    return {{"projection", lat_long ? "lat-long" : "other"},
-            {"width", camera.camera.width},
-            {"height", camera.camera.height / faces},
-            {"heading", rounded(heading_of(camera.camera).in(deg))}};
-  }
-
   Json sky(const plan::Frame& frame) const {
     const config::JobConfig& config = job_.plan.job;
     std::map<std::string, double> light;
@@ -108,6 +99,8 @@ class Gallery {
     const bool lit = light.contains("sky_horizontal_lux") && light.contains("sun_horizontal_lux");
     const Json total =
         lit ? rounded(light["sky_horizontal_lux"] + light["sun_horizontal_lux"]) : Json(nullptr);
+    const config::CameraConfig view = preview_camera(frame);
+    const int faces = view.cube_faces_apart ? 6 : 1;  // of a strip, one is shown
     return {{"number", frame.index},
             {"site", frame.site},
             {"utc", format_utc(frame.instant, 0)},
@@ -118,7 +111,12 @@ class Gallery {
             {"turbidity", rounded(config.air.turbidity[frame.turbidity].value)},
             {"albedo", config.air.ground_albedo[frame.albedo].value.name},
             {"camera", config.cameras[frame.camera].name},
-            {"heading", rounded(heading_of(preview_camera(frame).camera).in(deg))},
+            {"choices", choices_of(config, frame)},
+            {"lat_long", view.camera.projection == image::Projection::lat_long},
+            {"width", view.camera.width},
+            {"height", view.camera.height / faces},
+            {"heading", rounded(heading_of(view.camera).in(deg))},
+            {"horizon", rounded(frame.horizon.in(deg))},
             {"ev", rounded(frame.ev)},
             {"lux", total},
             {"sky", lux_of("sky_horizontal_lux")},
@@ -186,12 +184,9 @@ Result<std::string> make_gallery(const JobContext& job, const config::LibraryOut
   };
   // One sky a line, made one after the other: a large library's page is larger than its plan.
   std::string skies;
-  Json head = gallery.head();
-  for (const plan::Frame& frame : job.plan.frames) {
-    if (skies.empty()) head["preview"] = gallery.shape_of_preview(frame);
+  for (const plan::Frame& frame : job.plan.frames)
     skies += (skies.empty() ? "\n" : ",\n") + text_of(gallery.sky(frame));
-  }
-  std::string data = text_of(head);
+  std::string data = text_of(gallery.head());
   data.back() = ',';
   data += "\"skies\":[" + skies + "\n]}";
   return filled_page(web_text("gallery.html"),

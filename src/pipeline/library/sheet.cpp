@@ -22,24 +22,25 @@ size_t output_named(const config::JobConfig& job, const std::string& path) {
   return job.outputs.size();  // not reached: the config has checked the name
 }
 
-/// What tells frames of one site and time apart.
-std::string choice_text(const config::JobConfig& job, const plan::Frame& frame) {
-  std::string text;
-  if (job.air.turbidity.size() > 1)
-    text += fmt::format("  T {:.3g}", job.air.turbidity[frame.turbidity].value);
-  if (job.air.ground_albedo.size() > 1)
-    text += "  " + job.air.ground_albedo[frame.albedo].value.name;
-  if (job.cameras.size() > 1) text += "  " + job.cameras[frame.camera].name;
-  return text;
-}
-
 }  // namespace
+
+std::vector<std::string> choices_of(const config::JobConfig& job, const plan::Frame& frame) {
+  std::vector<std::string> choices;
+  if (job.air.turbidity.size() > 1)
+    choices.push_back(fmt::format("T {:.3g}", job.air.turbidity[frame.turbidity].value));
+  const config::Albedo& ground = job.air.ground_albedo[frame.albedo].value;
+  if (job.air.ground_albedo.size() > 1)
+    choices.push_back((ground.spectral ? "" : "albedo ") + ground.name);
+  if (job.cameras.size() > 1) choices.push_back(job.cameras[frame.camera].name);
+  return choices;
+}
 
 ExistingFrame labelled_frame(const plan::Plan& plan, const plan::Frame& frame,
                              const std::filesystem::path& picture) {
   const config::JobConfig& job = plan.job;
-  const std::string site = job.sites[frame.site].name, time = minute_text(frame.local),
-                    choice = choice_text(job, frame);
+  const std::string site = job.sites[frame.site].name, time = minute_text(frame.local);
+  std::string choice;
+  for (const std::string& text : choices_of(job, frame)) choice += "  " + text;
   const Angle up = frame.asked_sun ? frame.asked_sun->elevation : elevation(frame.sky.sun_apparent);
   const std::string sun = fmt::format("sun {:.1f}", up.in(deg));
   ExistingFrame labelled{picture, fmt::format("{}  {}  {}{}", site, time, sun, choice), {}};

@@ -56,11 +56,12 @@ function sorted(list) {
   return list.sort(order);
 }
 function card(s) {
-  const shape = data.preview.width && data.preview.height ? data.preview.width + "/" + data.preview.height : "2/1";
+  const shape = Math.max(0.75, s.width / s.height).toFixed(4);  // a tall strip is no tall card
   return make("button", {class: "sky", type: "button", "data-number": s.number, on: {click: () => open(s)}},
     make("img", {src: link(s.preview), alt: "", loading: "lazy", decoding: "async", style: "aspect-ratio:" + shape}),
     make("div", {}, make("b", {}, data.sites[s.site]), make("span", {}, make("i", {style: "font-style:normal"}, clock(s))),
-      make("span", {}, make("i", {style: "font-style:normal"}, "sun " + degrees(s.sun)), make("i", {style: "font-style:normal"}, lux(s.lux)))));
+      make("span", {}, make("i", {style: "font-style:normal"}, "sun " + degrees(s.sun)), make("i", {style: "font-style:normal"}, lux(s.lux))),
+      s.choices.length ? make("em", {}, s.choices.join(" \u00b7 ")) : ""));
 }
 function addCards() {
   byId("grid").append(...shown.slice(made, made + kPage).map(card));
@@ -132,11 +133,12 @@ function fileRow(f) {
 }
 function viewer(s) {
   const picture = make("img", {src: link(s.preview), alt: "Preview of this sky"});
-  if (data.preview.projection !== "lat-long") return make("div", {class: "view"}, picture);
+  if (!s.lat_long) return make("div", {class: "view"}, picture);
   const canvas = make("canvas", {width: 960, height: 540, tabindex: 0, role: "img"}), where = make("p", {}, "drag to look around");
-  canvas.addEventListener("turned", e => { where.textContent = `${compass(e.detail.azimuth)} ${Math.round(e.detail.azimuth)}\u00b0, ${Math.round(e.detail.elevation)}\u00b0 up \u2014 drag to look around`; });
-  const heading = s.heading ?? data.preview.heading;
-  panorama(canvas, picture, {azimuth: s.azimuth, elevation: Math.max(10, Math.min(35, s.apparent)), heading});
+  canvas.addEventListener("turned", e => { where.textContent = `${compass(e.detail.azimuth)} ${Math.round(e.detail.azimuth)}\u00b0, ${upward(e.detail.elevation, "\u00b0")} \u2014 drag to look around`; });
+  // On the sun, but for one high up or near the horizon, which from space is far below the level.
+  const elevation = Math.max(s.horizon + 10, Math.min(35, s.apparent));
+  panorama(canvas, picture, {azimuth: s.azimuth, elevation, heading: s.heading});
   return make("div", {class: "view"}, canvas, where);
 }
 function open(s) {

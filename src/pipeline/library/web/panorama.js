@@ -69,7 +69,7 @@ function panorama(canvas, picture, start) {
         triangle(a, b, c, w, h);
         triangle(b, d, c, w, h);
       }
-    canvas.setAttribute("aria-label", `Looking ${compass(view.azimuth)}, ${Math.round(view.elevation)} degrees up. Arrow keys turn, plus and minus zoom.`);
+    canvas.setAttribute("aria-label", `Looking ${compass(view.azimuth)}, ${upward(view.elevation, " degrees")}. Arrow keys turn, plus and minus zoom.`);
     canvas.dispatchEvent(new CustomEvent("turned", {detail: view}));
   }
   let asked = 0;
@@ -107,4 +107,8 @@ function panorama(canvas, picture, start) {
 
 function compass(azimuth) {
   return ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"][Math.round(azimuth / 45) % 8];
+}
+
+function upward(elevation, unit) {
+  return Math.abs(Math.round(elevation)) + unit + (Math.round(elevation) < 0 ? " down" : " up");
 }
