@@ -97,17 +97,39 @@ void add_exposure(AttributeList& list, const FrameMetadata& f) {
   list.number("skylapse:exposureEv100", *f.exposure_ev100);
 }
 
+void add_picture(AttributeList& list, const FrameMetadata& f) {
+  // OpenImageIO makes OpenEXR's envmap attribute from this name; `envmap` itself it drops.
+  if (f.environment == EnvironmentMap::lat_long) list.text("textureformat", "LatLong Environment");
+  if (f.environment == EnvironmentMap::cube) list.text("textureformat", "CubeFace Environment");
+  if (f.content) list.text("skylapse:content", picture_content_name(*f.content));
+  list.text("skylapse:projection", f.projection);
+  list.text("skylapse:orientation", f.orientation);
+  if (f.heading) list.number("skylapse:heading", f.heading->in(deg));
+}
+
 void add_sun_policy(AttributeList& list, const FrameMetadata& f) {
   if (f.sun_radius) list.number("skylapse:sunRadius", f.sun_radius->in(deg));
   if (f.sun_illuminance) list.number("skylapse:sunIlluminance", f.sun_illuminance->in(lux));
   if (!f.sun_policy) return;
-  list.text("skylapse:sunPolicy", sun_policy_name(f.sun_policy->policy));
+  if (f.disc_treated) list.text("skylapse:sunPolicy", sun_policy_name(f.sun_policy->policy));
   list.number("skylapse:scale", f.sun_policy->scale);
   list.integer("skylapse:pixelsBeyondHalf", static_cast<int>(f.sun_policy->pixels_beyond_half));
   list.number("skylapse:lostFraction", f.sun_policy->lost_fraction);
 }
 
 }  // namespace
+
+std::string picture_content_name(PictureContent content) {
+  switch (content) {
+    case PictureContent::radiance:
+      return "radiance";
+    case PictureContent::sky_without_disc:
+      return "sky without disc";
+    case PictureContent::standard_error:
+      return "standard error";
+  }
+  return {};
+}
 
 std::vector<Attribute> frame_attributes(const FrameMetadata& f) {
   AttributeList list;
@@ -116,9 +138,7 @@ std::vector<Attribute> frame_attributes(const FrameMetadata& f) {
   add_direction(list, "skylapse:moonAzimuth", "skylapse:moonElevation", f.moon);
   add_colour(list, f);
   add_exposure(list, f);
-  // OpenImageIO makes OpenEXR's envmap attribute from this name; `envmap` itself it drops.
-  if (f.environment == EnvironmentMap::lat_long) list.text("textureformat", "LatLong Environment");
-  if (f.environment == EnvironmentMap::cube) list.text("textureformat", "CubeFace Environment");
+  add_picture(list, f);
   add_sun_policy(list, f);
   list.text("skylapse:model", f.model);
   list.integer("skylapse:extrapolated", f.extrapolated ? 1 : 0);

@@ -24,6 +24,16 @@ enum class PixelEncoding {
   display,   // through an OpenColorIO display and view
 };
 
+/// What of the scene the pixels are of.
+enum class PictureContent {
+  radiance,
+  sky_without_disc,  // whether the sun is up or not
+  standard_error,    // of the radiance
+};
+
+/// "radiance", "sky without disc", "standard error".
+std::string picture_content_name(PictureContent content);
+
 struct FrameMetadata {
   std::chrono::sys_time<std::chrono::microseconds> utc{};
   std::chrono::seconds utc_offset{};  // local = utc + utc_offset (east positive)
@@ -36,11 +46,16 @@ struct FrameMetadata {
   PixelEncoding encoding = PixelEncoding::absolute;
   std::string display, view;  // with PixelEncoding::display
   EnvironmentMap environment = EnvironmentMap::none;
+  std::optional<PictureContent> content;
+  std::string projection;        // "lat-long"
+  std::string orientation;       // the renderer's convention, where one was asked for: "usd"
+  std::optional<Angle> heading;  // azimuth of a map's centre, of a cube's +Z face in OpenEXR's axes
   std::optional<double> exposure_ev100;
   std::string model;                           // "hosek-wilkie"
   bool extrapolated = false;                   // outside the model's range
   std::string fingerprint;                     // of config, code and tables
   std::optional<SunPolicyRecord> sun_policy;   // half-float files
+  bool disc_treated = true;                    // whether the policy had a disc to act on
   std::optional<Illuminance> sun_illuminance;  // normal to the beam: what `split` leaves out
 };
 

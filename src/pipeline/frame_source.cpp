@@ -1,9 +1,12 @@
 #include "pipeline/frame_source.h"
 
+#include <array>
 #include <utility>
 
 #include "color/rgb_space.h"
 #include "core/constants.h"
+#include "image/orientation.h"
+#include "pipeline/image_file.h"
 #include "pipeline/reference_sky.h"
 
 namespace skylapse::pipeline {
@@ -19,6 +22,16 @@ std::map<std::string, double> noise_record(const FrameLight& light) {
           {"max_relative_error", record.max_relative_error},
           {"share_of_pixels_reached", record.share_reached},
           {"sky_horizontal_relative_error", light.sky.noise->sky_irradiance_error}};
+}
+
+output::PictureContent content_of(const FrameLight& light, const config::ImageOutput& output) {
+  if (output.content == config::ImageContent::standard_error)
+    return output::PictureContent::standard_error;
+  // A disc that the job has switched off is missing too; one below the horizon is not.
+  const bool hidden = !light.disc_shows && light.disc_energy.normal_irradiance.y > 0;
+  return output.content == config::ImageContent::sky || leaves_disc_apart(output) || hidden
+             ? output::PictureContent::sky_without_disc
+             : output::PictureContent::radiance;
 }
 
 }  // namespace
@@ -43,6 +56,25 @@ output::FrameMetadata metadata_of(const plan::Plan& plan, const plan::Frame& fra
   meta.fingerprint = fingerprint;
   meta.sun_illuminance = lux_of(light.disc_energy.normal_irradiance) * lux;
   return meta;
+}
+
+void describe_picture(const FrameLight& light, const config::ImageOutput& output,
+                      const config::CameraConfig& camera, output::FrameMetadata& meta) {
+  meta.content = content_of(light, output);
+  meta.disc_treated = output.content == config::ImageContent::radiance && light.disc_shows;
+  const image::Projection projection = camera.camera.projection;
+  meta.projection = projection_name(projection);
+  if (output.orientation) meta.orientation = image::name_of(*output.orientation);
+  if (image::stands_upright(projection))
+    meta.heading = azimuth(Direction<Enu>::from_vector(camera.camera.camera_to_enu[2]));
+}
+
+std::string projection_name(image::Projection projection) {
+  constexpr std::array kNames{"perspective",       "fisheye-equidistant",
+                              "fisheye-equisolid", "fisheye-stereographic",
+                              "lat-long",          "cube",
+                              "octahedral",        "mirror-ball"};
+  return kNames[size_t(projection)];
 }
 
 LedgerEntry entry_for(const FrameSource& source, std::string file, std::string fingerprint) {

@@ -121,6 +121,7 @@ output::FrameMetadata ImageFile::metadata() const {
   meta.display = output_.display.value_or("");
   meta.view = output_.view.value_or("");
   meta.environment = environment_of(view_.camera);
+  describe_picture(source_.light, output_, view_.camera, meta);
   meta.sun_policy = policy_;
   return meta;
 }

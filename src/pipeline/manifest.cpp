@@ -11,8 +11,11 @@
 #include "image/orientation.h"
 #include "output/atomic_file.h"
 #include "output/sun_policy.h"
+#include "pipeline/frame_source.h"
 #include "pipeline/library/library_pass.h"
 #include "pipeline/movie_pass.h"
+#include "pipeline/output_view.h"
+#include "pipeline/products/cube_texture.h"
 #include "pipeline/promise_json.h"
 #include "plan/effect_planner.h"
 
@@ -54,18 +57,18 @@ ordered_json sites_json(const config::JobConfig& job) {
 }
 
 ordered_json camera_json(const config::CameraConfig& camera) {
-  constexpr std::array kProjections{"perspective",       "fisheye-equidistant",
-                                    "fisheye-equisolid", "fisheye-stereographic",
-                                    "lat-long",          "cube",
-                                    "octahedral",        "mirror-ball"};
+  constexpr std::array kLayouts{"horizontal-strip", "vertical-strip", "cross", "vertical-cross"};
   const auto forward = Direction<Enu>::from_vector(glm::dvec3(camera.camera.camera_to_enu[2]));
-  return {{"name", camera.name},
-          {"projection", kProjections[size_t(camera.camera.projection)]},
-          {"width", camera.camera.width},
-          {"height", camera.camera.height},
-          {"field_of_view_deg", camera.camera.field_of_view.in(deg)},
-          {"azimuth_deg", azimuth(forward).in(deg)},
-          {"elevation_deg", elevation(forward).in(deg)}};
+  ordered_json out{{"name", camera.name},
+                   {"projection", projection_name(camera.camera.projection)},
+                   {"width", camera.camera.width},
+                   {"height", camera.camera.height},
+                   {"field_of_view_deg", camera.camera.field_of_view.in(deg)},
+                   {"azimuth_deg", azimuth(forward).in(deg)},
+                   {"elevation_deg", elevation(forward).in(deg)}};
+  if (camera.camera.projection == image::Projection::cube)
+    out["layout"] = camera.cube_faces_apart ? "faces" : kLayouts[size_t(camera.camera.cube_layout)];
+  return out;
 }
 
 ordered_json cameras_json(const config::JobConfig& job) {
@@ -82,7 +85,12 @@ ordered_json output_json(const config::ImageOutput& image) {
                  {"type", kTypes[size_t(image.sample_type)]}};
   if (image.content == config::ImageContent::standard_error) o["content"] = "standard-error";
   if (image.content == config::ImageContent::sky) o["content"] = "sky";
-  if (image.own_view) o["camera"] = camera_json(*image.own_view);
+  if (image.own_view) {
+    config::CameraConfig view = *image.own_view;
+    view.camera = oriented(view.camera, image.orientation);
+    o["camera"] = camera_json(view);
+    if (image.format == "ktx2") o["camera"].erase("layout");  // it holds six images
+  }
   if (image.orientation) o["orientation"] = std::string(name_of(*image.orientation));
   const bool displayed = image.display || image.view;
   if (!displayed && (image.sample_type == output::SampleType::half_float || image.format == "hdr"))
@@ -105,7 +113,10 @@ ordered_json output_json(const config::ProductOutput& product) {
   ordered_json o{{kKinds[size_t(product.kind)], product.path.value}, {"format", product.format}};
   if (product.view) {
     o["type"] = kTypes[size_t(product.sample_type)];
-    o["camera"] = camera_json(*product.view);
+    config::CameraConfig view = *product.view;
+    view.camera = product_camera(product);
+    o["camera"] = camera_json(view);
+    if (product.format == "ktx2") o["camera"].erase("layout");
   }
   if (product.kind == config::ProductKind::specular) o["levels"] = product.levels;
   if (product.kind == config::ProductKind::dome) o["map"] = product.map_path.value;

@@ -1,6 +1,7 @@
 #pragma once
 // The camera of an output, turned the way its renderer wants it.
 #include <array>
+#include <optional>
 
 #include "plan/plan.h"
 
@@ -14,6 +15,9 @@ struct OutputView {
   std::array<int, 6> faces{0, 1, 2, 3, 4, 5};
   [[nodiscard]] bool reorders_faces() const { return faces != OutputView{}.faces; }
 };
+
+/// Turned to the heading of an orientation; one without, or one that cannot be turned, stays.
+image::Camera oriented(image::Camera camera, std::optional<image::Orientation> orientation);
 
 /// The output's own view, else that of the frame's camera. A map or cube with an orientation has
 /// the heading of that convention, and its order of the faces.

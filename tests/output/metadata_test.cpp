@@ -112,5 +112,35 @@ TEST(FrameAttributes, SunDirectionAndFlags) {
   EXPECT_EQ(find(all, "skylapse:moonAzimuth"), nullptr) << "nothing is claimed about no moon";
 }
 
+TEST(FrameAttributes, TheSunPolicyIsNamedOnlyWhereThereIsADiscToTreat) {
+  FrameMetadata f = solstice();
+  f.sun_policy = SunPolicyRecord{.policy = SunPolicy::clip};
+  f.content = PictureContent::radiance;
+  auto all = frame_attributes(f);
+  EXPECT_EQ(get<std::string>(all, "skylapse:content"), "radiance");
+  EXPECT_EQ(get<std::string>(all, "skylapse:sunPolicy"), "clip");
+  f.content = PictureContent::sky_without_disc;
+  f.disc_treated = false;
+  all = frame_attributes(f);
+  EXPECT_EQ(get<std::string>(all, "skylapse:content"), "sky without disc");
+  EXPECT_EQ(find(all, "skylapse:sunPolicy"), nullptr);
+  EXPECT_EQ(get<double>(all, "skylapse:scale"), 1.0) << "of the file, with a disc or without";
+  f.content = PictureContent::standard_error;
+  EXPECT_EQ(get<std::string>(frame_attributes(f), "skylapse:content"), "standard error");
+}
+
+TEST(FrameAttributes, AMapSaysHowItLies) {
+  FrameMetadata f = solstice();
+  for (const char* name : {"skylapse:orientation", "skylapse:heading", "skylapse:projection"})
+    EXPECT_EQ(find(frame_attributes(f), name), nullptr) << name << " of no map";
+  f.projection = "octahedral";
+  f.orientation = "pbrt";
+  f.heading = 0 * deg;
+  const auto all = frame_attributes(f);
+  EXPECT_EQ(get<std::string>(all, "skylapse:projection"), "octahedral");
+  EXPECT_EQ(get<std::string>(all, "skylapse:orientation"), "pbrt");
+  EXPECT_EQ(get<double>(all, "skylapse:heading"), 0.0) << "north is a heading too";
+}
+
 }  // namespace
 }  // namespace skylapse::output

@@ -1,5 +1,7 @@
 #include "pipeline/run_job.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "output/movie_writer.h"
@@ -133,6 +135,85 @@ TEST(RunJob, TheManifestCarriesWhatFormatsWithoutMetadataCannot) {
   EXPECT_GT(last["exposure"]["exposure_time_s"], 0);
   EXPECT_GT(last["light"]["sky_horizontal_lux"], 100);
   EXPECT_GT(last["light"]["sun_normal_lux"], 100);
+}
+
+/// What a file says of itself under a name; nothing if it does not.
+std::string said_by(const std::filesystem::path& file, const std::string& name) {
+  const auto io = output::open_image_io();
+  const auto image = (*io)->decode(file);
+  if (!image) return "unreadable";
+  for (const output::Attribute& a : image->attributes) {
+    if (a.name != name) continue;
+    if (const auto* text = std::get_if<std::string>(&a.value)) return *text;
+    if (const auto* number = std::get_if<double>(&a.value)) return fmt::format("{:.4g}", *number);
+  }
+  return "";
+}
+
+TEST(RunJob, MapsSayHowTheyLieInTheirFilesAndInTheManifest) {
+  const std::string outputs =
+      "{image: \"m.####.exr\", projection: lat-long, size: 32x16, orientation: usd}, "
+      "{image: \"b.####.exr\", projection: lat-long, size: 32x16, orientation: blender}, "
+      "{image: \"c.####.{face}.exr\", projection: cube, layout: faces, size: 8, "
+      "orientation: unity}, "
+      "{image: \"o.####.exr\", projection: octahedral, size: 16, orientation: pbrt}, "
+      "{image: \"x.####.exr\", projection: cube, layout: cross, size: 8, "
+      "look_at: {azimuth: 45 deg}}, "
+      "{image: \"p.####.exr\"}, "
+      "{specular: \"s.####.ktx2\", size: 8, orientation: unity}";
+  const auto plan = plan_of_text(small_scene(outputs));
+  const TemporaryFolder folder;
+  auto options = options_for(plan, folder.path());
+  options.frames = {6};
+  ASSERT_TRUE(run_job(plan, options).ok());
+  struct Expected {
+    const char *file, *projection, *orientation, *heading, *layout;
+  };
+  const Expected all[] = {{"m.0006.exr", "lat-long", "usd", "180", ""},
+                          {"b.0006.exr", "lat-long", "blender", "90", ""},
+                          {"c.0006.px.exr", "cube", "unity", "180", "faces"},
+                          {"o.0006.exr", "octahedral", "pbrt", "0", ""},
+                          {"x.0006.exr", "cube", "", "45", "cross"},
+                          {"p.0006.exr", "perspective", "", "", ""}};
+  const auto manifest = manifest_of(folder.path());
+  for (size_t i = 0; i < std::size(all); ++i) {
+    const Expected& e = all[i];
+    const auto said = [&](const char* name) { return said_by(folder.path() / e.file, name); };
+    EXPECT_EQ(said("skylapse:projection"), e.projection) << e.file;
+    EXPECT_EQ(said("skylapse:orientation"), e.orientation) << e.file;
+    EXPECT_EQ(said("skylapse:heading"), e.heading) << e.file;
+    const auto& output = manifest["outputs"][i];
+    EXPECT_EQ(output.value("orientation", ""), e.orientation) << e.file;
+    if (*e.heading == '\0') continue;
+    EXPECT_EQ(output["camera"]["projection"], e.projection) << e.file;
+    EXPECT_EQ(fmt::format("{:.4g}", output["camera"]["azimuth_deg"].get<double>()), e.heading);
+    EXPECT_EQ(output["camera"].value("layout", ""), e.layout) << e.file;
+    EXPECT_GT(output["camera"]["width"], 0);
+  }
+  EXPECT_NEAR(manifest["outputs"][6]["camera"]["azimuth_deg"], 180, 1e-9) << "products too";
+}
+
+TEST(RunJob, FilesSayWhetherTheyHoldTheDisc) {
+  struct Case {
+    const char *output, *more, *content, *policy;
+  };
+  const Case cases[] = {{"type: half, sun: clip", "", "radiance", "clip"},
+                        {"type: half, sun: split", "", "sky without disc", "split"},
+                        {"type: half, content: sky", "", "sky without disc", ""},
+                        {"type: float", "", "radiance", ""},
+                        {"type: half, sun: clip", "sky: {model: hosek-wilkie, sun_disc: off}",
+                         "sky without disc", ""}};
+  for (const Case& c : cases) {
+    const auto plan =
+        plan_of_text(small_scene(fmt::format("{{image: \"p.####.exr\", {}}}", c.output), c.more));
+    const TemporaryFolder folder;
+    auto options = options_for(plan, folder.path());
+    options.frames = {6};
+    ASSERT_TRUE(run_job(plan, options).ok());
+    const auto file = folder.path() / "p.0006.exr";
+    EXPECT_EQ(said_by(file, "skylapse:content"), c.content) << c.output << c.more;
+    EXPECT_EQ(said_by(file, "skylapse:sunPolicy"), c.policy) << c.output << c.more;
+  }
 }
 
 TEST(RunJob, SunPoliciesAreRecordedWithWhatTheyCost) {

@@ -63,7 +63,8 @@ Result<ProductFile> cube_texture_of(std::span<const image::FrameBuffer> levels,
     if (attribute.name != "textureformat" && attribute.name != "Software")
       notes.emplace_back(attribute.name, text_of(attribute));
   notes.emplace_back("skylapse:axes", axes_of(camera));
-  if (orientation) notes.emplace_back("skylapse:orientation", image::name_of(*orientation));
+  if (orientation && meta.orientation.empty())
+    notes.emplace_back("skylapse:orientation", image::name_of(*orientation));
   auto bytes = output::ktx2_file({.levels = levels,
                                   .faces = image::faces_in(image::CubeOrder::opengl),
                                   .type = type,
@@ -91,11 +92,11 @@ Result<ProductFile> make_cube_texture(const image::FrameBuffer& strip, const ima
   return cube_texture_of(levels, camera, type, meta, orientation, {}, times);
 }
 
-image::Camera product_camera(const ProductRequest& request) {
-  image::Camera camera = request.output.view->camera;
+image::Camera product_camera(const config::ProductOutput& output) {
+  image::Camera camera = output.view->camera;
   const Angle own = azimuth(image::to_enu(camera, Direction<CameraFrame>()));
-  camera.camera_to_enu = image::look_at(
-      own + image::map_heading(camera.projection, request.output.orientation), {}, {});
+  camera.camera_to_enu =
+      image::look_at(own + image::map_heading(camera.projection, output.orientation), {}, {});
   return camera;
 }
 

@@ -28,7 +28,7 @@ Result<ProductFile> cube_texture_of(std::span<const image::FrameBuffer> levels,
                                     StageTimes& times);
 
 /// The camera of a product's cube or map: the view turned as its orientation asks.
-image::Camera product_camera(const ProductRequest& request);
+image::Camera product_camera(const config::ProductOutput& output);
 
 /// Numbers that a file of this format and type holds, in place.
 void round_as_stored(const std::string& format, output::SampleType type, image::FrameBuffer& image);

@@ -57,7 +57,7 @@ glm::dvec3 level_ground(const image::Camera& sky_camera, const image::FrameBuffe
 }  // namespace
 
 Result<std::vector<ProductFile>> make_irradiance(const ProductRequest& request, StageTimes& times) {
-  const image::Camera camera = product_camera(request);
+  const image::Camera camera = product_camera(request.output);
   const image::Camera sky_camera = image::strip_camera(camera, kSkySide);
   const auto sky = request.light.picture(sky_camera, Disc::without, times);
   if (!sky) return sky.error();

@@ -128,8 +128,8 @@ double stored_lux(const ProductRequest& request, const image::Camera& camera,
 }  // namespace
 
 Result<std::vector<ProductFile>> make_specular(const ProductRequest& request, StageTimes& times) {
-  const image::Camera camera =
-      image::strip_camera(product_camera(request), image::cube_face_size(product_camera(request)));
+  const image::Camera camera = image::strip_camera(
+      product_camera(request.output), image::cube_face_size(product_camera(request.output)));
   const auto levels = levels_of(request, camera, times);
   if (!levels) return levels.error();
   const double true_lux = true_horizontal_lux(request);
