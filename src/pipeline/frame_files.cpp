@@ -273,7 +273,8 @@ bool is_texture(const config::Output& output) {
 Status write_texture(const FrameSource& source, size_t index, const std::string& fingerprint,
                      const StageTimes& before, const Record& record, StageTimes& times) {
   const auto& output = std::get<config::ImageOutput>(source.plan.job.outputs[index]);
-  const image::Camera camera = view_of_output(source.plan, source.frame, output).camera.camera;
+  const config::CameraConfig view = view_of_output(source.plan, source.frame, output).camera;
+  const image::Camera& camera = view.camera;
   StageTimes own;
   const bool whole = output.content == config::ImageContent::radiance;
   auto sky = source.light.picture(camera, Disc::without, own);
@@ -281,6 +282,7 @@ Status write_texture(const FrameSource& source, size_t index, const std::string&
   image::FrameBuffer strip = *sky;
   if (whole) source.light.add_disc_rows(camera, 0, strip, own);
   auto meta = metadata_of(source.plan, source.frame, source.light, fingerprint);
+  describe_picture(source.light, output, view, meta);
   output::SampleType type = output.sample_type;
   if (type == output::SampleType::half_float) {
     const bool split = output.sun_policy == output::SunPolicy::split;

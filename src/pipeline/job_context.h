@@ -31,7 +31,8 @@ struct JobContext {
   }
   /// What a frame that takes long calls with the share that is done: tells how far the job is,
   /// answers whether to go on.
-  [[nodiscard]] std::function<bool(double)> report_paths() const;
+  /// A frame of several pictures, each with shares of its own, is done when all of them are.
+  [[nodiscard]] std::function<bool(double)> report_paths(int pictures = 1) const;
   [[nodiscard]] const plan::Frame& frame(long number) const { return plan.frames[number - 1]; }
   /// Fingerprint of one image output of a frame.
   [[nodiscard]] std::string fingerprint(const plan::Frame& frame, size_t output) const;

@@ -134,12 +134,25 @@ void find_missing(const JobContext& job, Task& task) {
       task.missing.push_back(o);
 }
 
+/// Whether a product looks at the whole sky.
+bool gathers_light(const config::Output& output) {
+  const auto* product = std::get_if<config::ProductOutput>(&output);
+  return product != nullptr && (product->kind == config::ProductKind::specular ||
+                                product->kind == config::ProductKind::irradiance ||
+                                product->kind == config::ProductKind::harmonics);
+}
+
 void run_task(const JobContext& job, Task& task) {
   find_missing(job, task);
   if (task.missing.empty()) return;
   const plan::Frame& frame = job.frame(task.number);
+  const auto groups = group_by_view(job.plan, frame, task.missing);
+  const auto drawn_apart = std::ranges::count_if(task.missing, [&](size_t o) {
+    return is_texture(job.plan.job.outputs[o]) || gathers_light(job.plan.job.outputs[o]);
+  });
   const auto light =
-      light_of_frame(job.plan, frame, job.atmospheres, task.times, job.report_paths());
+      light_of_frame(job.plan, frame, job.atmospheres, task.times,
+                     job.report_paths(std::max(1, int(groups.size()) + int(drawn_apart))));
   if (!light) {
     task.error = light.error();
     return;
@@ -159,7 +172,7 @@ void run_task(const JobContext& job, Task& task) {
     if (!status) task.error = status.error();
     return status.ok();
   };
-  for (const ViewGroup& group : group_by_view(job.plan, frame, task.missing))
+  for (const ViewGroup& group : groups)
     if (!keep_error(write_view(source, group, fingerprint_of, of_frame, record, task.times)))
       return;
   for (const size_t o : task.missing) {
@@ -227,10 +240,14 @@ std::string JobContext::fingerprint(const plan::Frame& frame, size_t output) con
   return image_fingerprint(plan, frame, std::get<config::ImageOutput>(o), color_config);
 }
 
-std::function<bool(double)> JobContext::report_paths() const {
-  return [this, before = 0.0](double share) mutable {
-    const double done = frames_by_paths->fetch_add(share - before) + share - before;
+std::function<bool(double)> JobContext::report_paths(int pictures) const {
+  return [this, pictures, before = 0.0, earlier = 0, counted = 0.0](double share) mutable {
+    if (share < before) ++earlier;  // the next picture has begun
     before = share;
+    const double of_frame = std::min(1.0, (earlier + share) / pictures);
+    const double more = of_frame - counted;
+    counted = of_frame;
+    const double done = frames_by_paths->fetch_add(more) + more;
     if (options.on_progress)
       options.on_progress({long(100 * done / double(options.frames.size())), 100, 0,
                            seconds_since(start), "paths %"});
