@@ -64,5 +64,12 @@ TEST(PathTemplate, TokensAndEndingsAreFound) {
   EXPECT_EQ(extension_of(".png"), "");
 }
 
+TEST(PathTemplate, AQuestionMarkIsRefusedAtItsPlace) {
+  const auto problem = path_template_problem("maps/a?b.####.exr");
+  ASSERT_TRUE(problem.has_value());
+  EXPECT_EQ(problem->message, "the name holds a question mark");
+  EXPECT_EQ(problem->begin, 6U);
+}
+
 }  // namespace
 }  // namespace skylapse::config
