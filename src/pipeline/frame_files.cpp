@@ -300,7 +300,7 @@ Status write_texture(const FrameSource& source, size_t index, const std::string&
   auto made = make_cube_texture(strip, camera, type, meta, output.orientation, own);
   if (!made) return made.error();
   if (meta.sun_policy) made->encoding.merge(policy_record(*meta.sun_policy));
-  made->encoding["stored_bits"] = type == output::SampleType::half_float ? 16 : 32;
+  made->encoding["stored_bits"] = stored_bits(type);
   add_light_record(source, output, made->encoding["horizontal_lux"], made->encoding);
   const auto file = plan::files_of(source.plan, source.frame, index).front();
   auto entry = write_whole(source, file, fingerprint, *made, own);

@@ -40,8 +40,12 @@ struct WrongLight {
   }
 };
 
-/// Nine harmonics are off by what nine terms cannot say, in any encoding.
-bool by_theory(const LedgerEntry& entry) { return entry.encoding.contains("terms"); }
+/// Nine harmonics, and levels that roughness has blurred over the horizon, are off in any encoding.
+bool by_theory(const LedgerEntry& entry) {
+  const auto roughness = entry.encoding.find("roughness");
+  return entry.encoding.contains("terms") ||
+         (roughness != entry.encoding.end() && roughness->second > 0);
+}
 
 /// Why files hold other light: the sun policy `clip`, half floats, few pixels.
 struct EncodingLosses {

@@ -37,6 +37,11 @@ void round_as_stored(const std::string& format, output::SampleType type, image::
 /// above what is to be stored. (Half floats end at 6e-8, 4e-5 lux: a night without a moon.)
 output::SampleType stored_type(const ProductRequest& request, const image::FrameBuffer& picture);
 
+/// For the record of a file: 16 or 32.
+constexpr double stored_bits(output::SampleType type) {
+  return type == output::SampleType::half_float ? 16 : 32;
+}
+
 /// Illuminance of level ground by a picture in the frame's space.
 double horizontal_lux(const FrameLight& light, const glm::dvec3& horizontal_rgb);
 /// By the model's own light: the sky's and, if the product has it and it shows, the disc's.

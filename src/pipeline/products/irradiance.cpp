@@ -85,7 +85,8 @@ Result<std::vector<ProductFile>> make_irradiance(const ProductRequest& request, 
   const double lux = horizontal_lux(request.light, mean_of(zenith_pixels(camera, map)));
   for (ProductFile& file : files)
     file.encoding = {{"horizontal_lux", lux},
-                     {"true_horizontal_lux", true_horizontal_lux(request)}};
+                     {"true_horizontal_lux", true_horizontal_lux(request)},
+                     {"stored_bits", stored_bits(type)}};
   return files;
 }
 

@@ -144,6 +144,7 @@ Result<std::vector<ProductFile>> make_specular(const ProductRequest& request, St
     if (!file) return file.error();
     file->encoding["true_horizontal_lux"] = true_lux;
     file->encoding["sun_spread"] = levels->sun_spread;
+    file->encoding["stored_bits"] = stored_bits(type);
     files.push_back(*std::move(file));
     return files;
   }
@@ -157,6 +158,7 @@ Result<std::vector<ProductFile>> make_specular(const ProductRequest& request, St
     for (ProductFile& file : *made) {
       file.encoding = {{"horizontal_lux", lux},
                        {"true_horizontal_lux", true_lux},
+                       {"stored_bits", stored_bits(type)},
                        {"roughness", levels->roughness[level]}};
       if (level == 0) file.encoding["sun_spread"] = levels->sun_spread;
       files.push_back(std::move(file));
