@@ -1,16 +1,7 @@
 // Compiled with -O3 -fno-math-errno -fno-trapping-math, as sky/hosek_wilkie/sky_kernel.cpp.
 #include "image/lighting/zonal_kernel.h"
 
-#define SKYLAPSE_INLINE static inline __attribute__((always_inline))
-
-// One text, compiled for each instruction set (not under ThreadSanitizer: the choice is made before
-// its runtime starts).
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define SKYLAPSE_CLONES \
-  __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define SKYLAPSE_CLONES
-#endif
+#include "core/vector_kernel.h"
 
 namespace skylapse::image::kernel {
 namespace {

@@ -3,17 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/vector_kernel.h"
 #include "sky/bruneton/slice_angles.h"
-
-#define SKYLAPSE_INLINE static inline __attribute__((always_inline))
-
-// As in hosek_wilkie/sky_kernel.cpp: one text, compiled for each instruction set.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define SKYLAPSE_CLONES \
-  __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define SKYLAPSE_CLONES
-#endif
 
 namespace skylapse::sky::bruneton::kernel {
 namespace {

@@ -5,23 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#define SKYLAPSE_INLINE static inline __attribute__((always_inline))
-
-// Loops for the vectoriser: one text, compiled for each instruction set by the compiler. Loops with
-// vectors of our own: three versions from one template, as wide as each set's registers.
-// (Not under ThreadSanitizer: the choice is made before its runtime starts, and crashes in it.)
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define SKYLAPSE_X86 1
-#define SKYLAPSE_CLONES \
-  __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#define SKYLAPSE_V3 __attribute__((target("arch=x86-64-v3")))
-#define SKYLAPSE_V4 __attribute__((target("arch=x86-64-v4")))
-#else
-#define SKYLAPSE_X86 0
-#define SKYLAPSE_CLONES
-#define SKYLAPSE_V3
-#define SKYLAPSE_V4
-#endif
+#include "core/vector_kernel.h"
 
 namespace skylapse::sky::hosek_wilkie::kernel {
 namespace {

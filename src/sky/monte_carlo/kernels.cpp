@@ -5,15 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/vector_kernel.h"
 #include "sky/quadrature.h"
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define SKYLAPSE_CLONES \
-  __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define SKYLAPSE_CLONES
-#endif
-#define SKYLAPSE_INLINE static inline __attribute__((always_inline))
 
 namespace skylapse::sky::monte_carlo {
 namespace {
