@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-LAYER = {"cli": 7, "study": 6, "pipeline": 5, "plan": 4, "config": 3, "sky": 2, "output": 2,
+LAYER = {"cli": 7, "study": 6, "diff": 6, "pipeline": 5, "plan": 4, "config": 3, "sky": 2, "output": 2,
          "astro": 1, "image": 1, "color": 1, "gpu": 1, "core": 0, "data": 0}
 OWNER = [(r"yaml-cpp/", {"src/config/yaml_"}), (r"OpenColorIO/", {"src/color/", "src/output/"}),
          (r"OpenImageIO/", {"src/output/"}), (r"(EGL|GL)/", {"src/gpu/"}),
