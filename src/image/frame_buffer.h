@@ -1,6 +1,7 @@
 #pragma once
 #include <cassert>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace skylapse::image {
@@ -13,6 +14,11 @@ class FrameBuffer {
   FrameBuffer(int width, int height)
       : width_(width), height_(height), data_(size_t{3} * width * height) {
     assert(width > 0 && height > 0);
+  }
+  /// Takes the samples, three a pixel.
+  FrameBuffer(int width, int height, std::vector<float> data)
+      : width_(width), height_(height), data_(std::move(data)) {
+    assert(width > 0 && height > 0 && data_.size() == size_t{3} * width * height);
   }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "image/diff/picture.h"
 #include "image/frame_buffer.h"
 
 namespace skylapse::output {
@@ -67,6 +68,26 @@ struct DecodedImage {
   bool floating_point = false;  // half or float samples: scene-linear by custom
 };
 
+/// Bounds on what one picture may take, checked in its header before anything is allocated.
+struct ReadLimits {
+  uint64_t pixels = 1ull << 28;  // 16384 x 16384
+  uint64_t bytes = 4ull << 30;   // of its samples as floats
+  int channels = 64;
+};
+
+/// One part (OpenEXR's word; page, layer, frame of others) of an image file, whole.
+struct ReadImage {
+  std::string format;       // OpenImageIO's name: "openexr", "png"
+  std::string compression;  // its word: "zip", "dwaa"; empty: none, or the format knows one alone
+  std::string part_name;    // of OpenEXR; may be empty
+  int parts = 1;            // of the file
+  int width = 0, height = 0;
+  std::vector<std::string> channels;          // in the order of the file
+  std::vector<image::SampleStorage> storage;  // of each channel
+  std::vector<float> samples;                 // interleaved, row 0 at the top
+  std::vector<Attribute> attributes;          // of the part
+};
+
 /// Scene-linear to display, through an OpenColorIO display and view. Safe for use by many threads.
 class DisplayTransform {
  public:
@@ -93,6 +114,15 @@ class ImageIo {
   virtual Result<std::unique_ptr<RowWriter>> open_rows(const EncodeRequest& request,
                                                        ByteSink& sink) const = 0;
   virtual Result<DecodedImage> decode(const std::string& path) const = 0;
+  /// All channels of one part, counted from 0; what a file without that part says is an error.
+  /// Which reader is asked follows from the first bytes of the file, and from its name only where
+  /// those tell nothing. Integers are scaled to 0..1 (of OpenEXR: kept), colours are not multiplied
+  /// by alpha, palettes and CMYK become RGB, luminance with subsampled chroma (OpenEXR's Y RY BY)
+  /// becomes RGB, pictures lie as their Orientation says. OpenEXR: the display window, with 0 where
+  /// the data window ends before it. Errors: missing_input with the reason: not a file, no image,
+  /// cut short or corrupt, deep or three-dimensional pixels, beyond `limits`.
+  virtual Result<ReadImage> read(const std::string& path, int part,
+                                 const ReadLimits& limits) const = 0;
   virtual Result<std::unique_ptr<DisplayTransform>> display(
       const DisplayRequest& request) const = 0;
   /// Displays and their views of a config, "display/view" each, default first.

@@ -8,6 +8,7 @@
 #include "output/imageio/draw.h"
 #include "output/imageio/encode.h"
 #include "output/imageio/module_abi.h"
+#include "output/imageio/read.h"
 
 namespace skylapse::output {
 namespace {
@@ -30,6 +31,10 @@ class ModuleImageIo final : public ImageIo {
   }
   Result<DecodedImage> decode(const std::string& path) const override {
     return imageio::decode(path);
+  }
+  Result<ReadImage> read(const std::string& path, int part,
+                         const ReadLimits& limits) const override {
+    return imageio::read(path, part, limits);
   }
   Result<std::unique_ptr<DisplayTransform>> display(const DisplayRequest& request) const override {
     return imageio::make_display_transform(request);
