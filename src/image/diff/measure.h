@@ -8,6 +8,7 @@
 // if there is none): light that no exposure of the picture shows. In [-2, 2], symmetric, defined
 // for zeros. Display pictures: the difference in 8-bit code values, 255 (b - a).
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,19 +39,36 @@ struct OddSamples {
   std::optional<PixelPlace> first_nan, first_infinite, first_negative;  // of only one
 };
 
+/// Sizes of the small picture that stands for a frame in measures over time.
+inline constexpr int kThumbnailColumns = 32, kThumbnailRows = 16;
+
+/// Linear Rec. 709 to CIE XYZ.
+glm::dmat3 rec709_to_xyz();
+
+struct CompareOptions {
+  glm::dmat3 rgb_to_xyz = rec709_to_xyz();  // of scene-linear pictures
+  std::optional<double> psnr_peak;  // nothing: 255 code values; linear: the brightest 0.1 % of a
+};
+
 struct Comparison {
   OddSamples odd;
   bool identical = false;  // every sample equal (0 and -0 are, NaN is NaN)
   std::vector<Measure> measures;
   std::vector<float> error;  // per pixel the largest |e| of its channels; NaN or Inf in one: +Inf
-  /// Mean of ln(b / a) of the light of each region, and of a itself, for measures over time; in the
-  /// order of region_names of the comparison.
-  std::vector<std::string> regions;
-  std::vector<double> region_light_a,
-      region_light_b;  // mean luminance (linear, display: code value)
+  uint64_t hash_a = 0, hash_b = 0;  // of the samples
+  /// Mean light of the cells of a grid of kThumbnailRows by kThumbnailColumns (of colour channels
+  /// together: their mean), row by row; smaller pictures fill the first cells.
+  std::vector<float> thumbnail_a, thumbnail_b;
+  /// Regions of the sky that the picture shows, with their mean light in both.
+  struct RegionLight {
+    std::string region;
+    double a = 0, b = 0;
+  };
+  std::vector<RegionLight> regions;
 };
 
 /// Both pictures have one size and the same channels (asserted).
-Comparison compare(const Picture& a, const Picture& b, const SkyView& view);
+Comparison compare(const Picture& a, const Picture& b, const SkyView& view,
+                   const CompareOptions& options = {});
 
 }  // namespace skylapse::image

@@ -1,0 +1,324 @@
+#include "image/diff/measure.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "image/diff/displacement.h"
+#include "image/diff/error_sums.h"
+#include "image/irradiance.h"
+
+namespace skylapse::image {
+namespace {
+
+/// A fitted move counts as one if it explains most of the difference, and changes the light by more
+/// than rounding to halves may.
+constexpr double kExplained = 0.5, kEffect = 1e-4;
+
+class MeasureList {
+ public:
+  MeasureList(std::vector<Measure>& list, bool display)
+      : list_(list), prefix_(display ? "display." : "relative.") {}
+  void scaled(const std::string& name, double value, std::optional<PixelPlace> place = {}) {
+    plain(prefix_ + name, value, place);
+  }
+  void plain(const std::string& name, double value, std::optional<PixelPlace> place = {}) {
+    if (std::isfinite(value)) list_.push_back({name, value, place});
+  }
+
+ private:
+  std::vector<Measure>& list_;
+  std::string prefix_;
+};
+
+struct Bias {
+  double value = 0;
+  int channel = 0;
+};
+
+Bias bias_of(const PixelSums& sums, int colours) {
+  Bias worst;
+  for (int c = 0; c < colours; ++c)
+    if (const double mean = std::fabs(sums.signed_sum[size_t(c)] / sums.count); mean > worst.value)
+      worst = {mean, c};
+  return worst;
+}
+
+void add_error_measures(const ErrorSums& sums, int colours, MeasureList& list) {
+  if (sums.all.count == 0) return;
+  list.scaled("max", sums.all.worst, sums.all.worst_at);
+  list.scaled("p50", std::min(sums.histogram.percentile(0.5), sums.all.worst));
+  list.scaled("p95", std::min(sums.histogram.percentile(0.95), sums.all.worst));
+  list.scaled("p99", std::min(sums.histogram.percentile(0.99), sums.all.worst));
+  list.scaled("p999", std::min(sums.histogram.percentile(0.999), sums.all.worst));
+  list.scaled("rms", std::sqrt(sums.all.squares / sums.all.count));
+  const Bias bias = bias_of(sums.all, colours);
+  list.scaled("bias", bias.value, PixelPlace{-1, -1, bias.channel});
+  list.scaled("block_rms", std::sqrt(sums.block.mean_square), sums.block.at);
+  list.scaled("row_rms", std::sqrt(sums.row.mean_square), sums.row.at);
+  list.scaled("column_rms", std::sqrt(sums.column.mean_square), sums.column.at);
+  if (sums.solid_angle > 0)
+    list.scaled("weighted_rms", std::sqrt(sums.weighted_squares / sums.solid_angle));
+}
+
+void add_absolute_measures(const ErrorSums& sums, double unit, MeasureList& list) {
+  if (sums.samples == 0) return;
+  const auto n = double(sums.samples);
+  list.plain("absolute.max", unit * std::max(0.0, sums.absolute_max),
+             sums.absolute_max > 0 ? std::optional(sums.absolute_at) : std::nullopt);
+  list.plain("absolute.mean", unit * sums.absolute_sum / n);
+  list.plain("absolute.rms", unit * std::sqrt(sums.absolute_squares / n));
+}
+
+void add_region_measures(const ErrorSums& sums, int colours, MeasureList& list) {
+  for (int r = 0; r < kSkyRegions; ++r) {
+    const PixelSums& region = sums.regions[size_t(r)];
+    if (region.count == 0) continue;
+    const std::string name = "region." + std::string(name_of(SkyRegion(r)));
+    const Bias bias = bias_of(region, colours);
+    PixelPlace place = region.worst_at;
+    list.scaled(name + ".rms", std::sqrt(region.squares / region.count), place);
+    place.channel = bias.channel;
+    list.scaled(name + ".bias", bias.value, place);
+  }
+}
+
+double share_of_norm(const double* a, const double* b, size_t n) {
+  double difference = 0, size = 0;
+  for (size_t i = 0; i < n; ++i) {
+    difference += (b[i] - a[i]) * (b[i] - a[i]);
+    size += std::max(a[i] * a[i], b[i] * b[i]);
+  }
+  return size > 0 ? std::sqrt(difference / size) : 0;
+}
+
+void add_light_measures(const ErrorSums& sums, const SkyView& view, int colours,
+                        MeasureList& list) {
+  const auto& [a, b] = sums.light;
+  if (sees_upper_hemisphere(*view.camera)) {
+    double worst = 0;
+    for (size_t c = 0; c < size_t(colours); ++c) {
+      const double larger = std::max(std::fabs(a.horizontal[c]), std::fabs(b.horizontal[c]));
+      if (larger > 0)
+        worst = std::max(worst, std::fabs(b.horizontal[c] - a.horizontal[c]) / larger);
+    }
+    list.plain("irradiance", worst);
+  }
+  if (sees_whole_sphere(view.camera->projection))
+    list.plain("harmonics", share_of_norm(a.harmonics.data(), b.harmonics.data(), 9));
+}
+
+/// CIE 1976 u', v' of mean light; nothing without light.
+std::optional<glm::dvec2> chromaticity_of(const std::array<double, 3>& rgb,
+                                          const glm::dmat3& to_xyz) {
+  const glm::dvec3 xyz = to_xyz * glm::dvec3(rgb[0], rgb[1], rgb[2]);
+  const double sum = xyz.x + 15 * xyz.y + 3 * xyz.z;
+  if (!(xyz.y > 0) || !(sum > 0) || !std::isfinite(sum)) return {};
+  return glm::dvec2(4 * xyz.x / sum, 9 * xyz.y / sum);
+}
+
+void add_chromaticity(const ErrorSums& sums, const glm::dmat3& to_xyz, MeasureList& list) {
+  double worst = -1;
+  PixelPlace place{-1, -1, -1};
+  const auto offer = [&](const PixelSums& s, std::optional<PixelPlace> at) {
+    const auto a = chromaticity_of(s.colour_a, to_xyz), b = chromaticity_of(s.colour_b, to_xyz);
+    if (!a || !b || glm::distance(*a, *b) <= worst) return;
+    worst = glm::distance(*a, *b);
+    if (at) place = *at;
+  };
+  offer(sums.all, {});
+  for (const PixelSums& region : sums.regions)
+    if (region.count > 0) offer(region, region.worst_at);
+  if (worst >= 0)
+    list.plain("chromaticity", worst, place.x >= 0 ? std::optional(place) : std::nullopt);
+}
+
+/// The brightest thousandth of the picture ends below it: the sun's disc does not set the range.
+double peak_of(const Picture& a) {
+  const size_t step = std::max<size_t>(1, a.pixel_count() >> 16) | 1;
+  std::vector<float> light;
+  for (size_t i = 0; i < a.pixel_count(); i += step)
+    for (int c = 0; c < a.colour_count(); ++c)
+      if (const float v = a.samples[i * a.channels.size() + size_t(c)]; std::isfinite(v))
+        light.push_back(v);
+  if (light.empty()) return 0;
+  const auto at = light.begin() + std::ptrdiff_t(double(light.size() - 1) * 0.999);
+  std::nth_element(light.begin(), at, light.end());
+  return std::max(0.0F, *at);
+}
+
+/// Peak signal to noise ratio over values limited to [0, peak].
+double psnr_db(const Picture& a, const Picture& b, double peak) {
+  const auto rows = size_t(a.height);
+  std::vector<double> squares(rows), counts(rows);
+  const auto limit = float(peak);
+  parallel_for_ranges(rows, 16, [&](size_t begin, size_t end) {
+    for (size_t y = begin; y < end; ++y) {
+      const float *pa = a.pixel(0, int(y)), *pb = b.pixel(0, int(y));
+      const auto channels = a.channels.size();
+      for (size_t i = 0; i < size_t(a.width) * channels; ++i) {
+        if (i % channels >= size_t(a.colour_count()) || std::isnan(pa[i]) || std::isnan(pb[i]))
+          continue;
+        const float d = std::clamp(pb[i], 0.0F, limit) - std::clamp(pa[i], 0.0F, limit);
+        squares[y] += double(d) * double(d), counts[y] += 1;
+      }
+    }
+  });
+  double sum = 0, count = 0;
+  for (size_t y = 0; y < rows; ++y) sum += squares[y], count += counts[y];
+  return 10 * std::log10(peak * peak * count / sum);
+}
+
+void add_psnr(const Picture& a, const Picture& b, const CompareOptions& options,
+              MeasureList& list) {
+  const double peak = options.psnr_peak ? *options.psnr_peak : a.display_referred ? 1 : peak_of(a);
+  if (!(peak > 0)) return;
+  list.plain("psnr", psnr_db(a, b, peak));  // infinite, and left out, where nothing differs
+  list.plain("psnr.peak", peak);
+}
+
+void add_displacement(const Picture& a, const Picture& b, const SkyView& view, MeasureList& list) {
+  const bool wraps = view.camera && view.camera->projection == Projection::lat_long;
+  const auto move = fit_displacement(a, b, wraps);
+  if (!move || move->explained < kExplained || move->effect < kEffect) return;
+  const double size = std::hypot(move->x, move->y);
+  list.plain("position.shift_px", size);
+  list.plain("position.right_px", move->x);
+  list.plain("position.down_px", move->y);
+  if (!view.camera) return;
+  const double middle_x = 0.5 * a.width, middle_y = 0.5 * a.height;
+  const auto from = direction_at(*view.camera, {middle_x, middle_y});
+  const auto to = direction_at(*view.camera, {middle_x + move->x, middle_y + move->y});
+  if (from && to) list.plain("position.shift_deg", separation(*from, *to).in(deg));
+}
+
+/// Where the picture shows the sun.
+struct SpotSearch {
+  double x = 0, y = 0, reach = 0;
+};
+
+std::optional<SpotSearch> spot_search(const Picture& a, const SkyView& view,
+                                      const ErrorSums& sums) {
+  if (!view.camera || !view.sun) return {};
+  const auto at = position_of(*view.camera, *view.sun);
+  if (!at || sums.regions[size_t(SkyRegion::disc)].count == 0) return {};
+  const int x = std::clamp(int(at->x), 0, a.width - 1), y = std::clamp(int(at->y), 0, a.height - 1);
+  const double pixel = std::sqrt(pixel_solid_angle(*view.camera, x, y).in(sr));
+  const double radius = pixel > 0 ? view.sun_radius.in(rad) / pixel : 1;
+  return SpotSearch{at->x, at->y, 2 * radius + 8};
+}
+
+void add_spot(const Picture& a, const Picture& b, const SkyView& view, const ErrorSums& sums,
+              MeasureList& list) {
+  const auto search = spot_search(a, view, sums);
+  if (!search) return;
+  const auto sa = find_spot(a, search->x, search->y, search->reach);
+  if (!sa) return;
+  const PixelPlace place{int(sa->x), int(sa->y), -1};
+  const auto sb = find_spot(b, search->x, search->y, search->reach);
+  if (!sb) return list.plain("sun.flux", 1, place);
+  list.plain("sun.flux", std::fabs(sb->light / sa->light - 1), place);
+  list.plain("sun.shift_px", std::hypot(sb->x - sa->x, sb->y - sa->y), place);
+  const auto from = direction_at(*view.camera, {sa->x, sa->y});
+  const auto to = direction_at(*view.camera, {sb->x, sb->y});
+  if (from && to) list.plain("sun.shift_deg", separation(*from, *to).in(deg), place);
+}
+
+std::vector<float> thumbnail_of(const Picture& p) {
+  constexpr int kColumns = kThumbnailColumns, kRows = kThumbnailRows;
+  std::vector<float> cells(size_t(kColumns) * kRows, 0);
+  parallel_for_ranges(kRows, 1, [&](size_t begin, size_t end) {
+    for (size_t j = begin; j < end; ++j) {
+      const auto edge = [](int size, int parts, size_t i) {
+        return int(int64_t(size) * int64_t(i) / parts);
+      };
+      std::array<double, kColumns> sum{}, count{};
+      for (int y = edge(p.height, kRows, j); y < edge(p.height, kRows, j + 1); ++y)
+        for (size_t i = 0; i < kColumns; ++i)
+          for (int x = edge(p.width, kColumns, i); x < edge(p.width, kColumns, i + 1); ++x) {
+            const float* v = p.pixel(x, y);
+            const double light = p.colour_count() == 3
+                                     ? (double(v[0]) + double(v[1]) + double(v[2])) / 3
+                                     : double(v[0]);
+            if (std::isfinite(light)) sum[i] += light, count[i] += 1;
+          }
+      for (size_t i = 0; i < kColumns; ++i)
+        if (count[i] > 0) cells[j * kColumns + i] = float(sum[i] / count[i]);
+    }
+  });
+  return cells;
+}
+
+/// Of the bits of all samples, four lanes at a time so that it runs at the speed of memory.
+uint64_t hash_of(const Picture& p) {
+  std::array<uint64_t, 4> lanes{1, 2, 3, 4};
+  const auto mixed = [](uint64_t h, uint32_t bits) {
+    return std::rotl((h ^ bits) * 0x9E3779B97F4A7C15ULL, 29);
+  };
+  const size_t n = p.samples.size();
+  for (size_t i = 0; i < n; ++i)
+    lanes[i & 3] = mixed(lanes[i & 3], std::bit_cast<uint32_t>(p.samples[i] + 0.0F));  // -0 is 0
+  uint64_t all = n;
+  for (const uint64_t lane : lanes) all = mixed(mixed(all, uint32_t(lane)), uint32_t(lane >> 32U));
+  return all;
+}
+
+void add_regions(const ErrorSums& sums, int colours, Comparison& result) {
+  const auto offer = [&](const std::string& name, const PixelSums& s) {
+    if (s.light_weight <= 0) return;
+    Comparison::RegionLight light{name, 0, 0};
+    for (size_t c = 0; c < size_t(colours); ++c) {
+      light.a += s.colour_a[c] / (s.light_weight * colours);
+      light.b += s.colour_b[c] / (s.light_weight * colours);
+    }
+    result.regions.push_back(light);
+  };
+  offer("all", sums.all);
+  for (int r = 0; r < kSkyRegions; ++r)
+    offer(std::string(name_of(SkyRegion(r))), sums.regions[size_t(r)]);
+}
+
+}  // namespace
+
+glm::dmat3 rec709_to_xyz() {
+  // ITU-R BT.709-6 primaries with D65, as the standard's own matrix rounds them; columns.
+  return {0.4124564, 0.2126729, 0.0193339, 0.3575761, 0.7151522,
+          0.1191920, 0.1804375, 0.0721750, 0.9503041};
+}
+
+Comparison compare(const Picture& a, const Picture& b, const SkyView& view,
+                   const CompareOptions& options) {
+  assert(a.width == b.width && a.height == b.height && a.channels == b.channels);
+  assert(!view.camera || (view.camera->width == a.width && view.camera->height == a.height));
+  Comparison result;
+  const int colours = a.colour_count();
+  const ErrorSums sums = sum_errors(a, b, error_scale(a, b), view, result.error);
+  result.odd = sums.odd, result.identical = sums.identical;
+  result.hash_a = hash_of(a);
+  result.hash_b = result.identical ? result.hash_a : hash_of(b);
+  result.thumbnail_a = thumbnail_of(a);
+  result.thumbnail_b = result.identical ? result.thumbnail_a : thumbnail_of(b);
+  add_regions(sums, colours, result);
+  MeasureList list(result.measures, a.display_referred);
+  add_error_measures(sums, colours, list);
+  if (sums.other_max >= 0) list.scaled("other_channels", sums.other_max, sums.other_at);
+  add_absolute_measures(sums, a.display_referred ? 255 : 1, list);
+  list.plain("negative.share", a.samples.empty() ? 0
+                                                 : std::fabs(double(sums.odd.negative_b) -
+                                                             double(sums.odd.negative_a)) /
+                                                       double(a.samples.size()));
+  if (view.camera) {
+    add_region_measures(sums, colours, list);
+    add_light_measures(sums, view, colours, list);
+  }
+  if (colours == 3 && !a.display_referred) add_chromaticity(sums, options.rgb_to_xyz, list);
+  if (result.identical) return result;
+  add_psnr(a, b, options, list);
+  add_displacement(a, b, view, list);
+  add_spot(a, b, view, sums, list);
+  return result;
+}
+
+}  // namespace skylapse::image
