@@ -35,18 +35,22 @@ CaseList::CaseList(std::filesystem::path folder) : folder_(std::move(folder)) {
 }
 
 void CaseList::add_frame(const std::string& name, const Image& image, const FileOptions& options) {
-  frames_[name] = image;
+  frames_[name] = {image, "frames/" + name + extension(image)};
   write_image(folder_ / frame_file(name), image, options);
+}
+
+void CaseList::add_frame_file(const std::string& name, const std::string& file) {
+  frames_[name] = {read_image(folder_ / file), file};
 }
 
 const Image& CaseList::frame(const std::string& name) {
   const auto found = frames_.find(name);
   if (found == frames_.end()) throw std::runtime_error("no frame is called " + name);
-  return found->second;
+  return found->second.image;
 }
 
-std::string CaseList::frame_file(const std::string& name) const {
-  return "frames/" + name + extension(frames_.at(name));
+const std::string& CaseList::frame_file(const std::string& name) const {
+  return frames_.at(name).file;
 }
 
 void CaseList::add_image(bool sabotage, const std::string& id, const std::string& name,
@@ -71,15 +75,16 @@ void CaseList::add(Case entry) {
     if (other.id == entry.id) throw std::runtime_error("two cases are called " + entry.id);
   for (const std::string& file : {entry.a, entry.b})
     if (!std::filesystem::exists(path(file))) throw std::runtime_error("no file " + file);
+  if (entry.exits.empty()) entry.exits = entry.sabotage ? "2" : "0,1";
   cases_.push_back(std::move(entry));
 }
 
 void CaseList::write_list() const {
   std::ofstream out(folder_ / "list.tsv");
-  out << "id\tkind\tframe\twhat\ta\tb\n";
+  out << "id\tkind\tframe\twhat\ta\tb\texits\toptions\n";
   for (const Case& c : cases_)
     out << c.id << '\t' << (c.sabotage ? "sabotage" : "innocent") << '\t' << c.frame << '\t'
-        << c.what << '\t' << c.a << '\t' << c.b << '\n';
+        << c.what << '\t' << c.a << '\t' << c.b << '\t' << c.exits << '\t' << c.options << '\n';
   if (!out.flush()) throw std::runtime_error("cannot write list.tsv");
 }
 

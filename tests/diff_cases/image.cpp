@@ -18,6 +18,11 @@ OIIO::ImageSpec make_spec(const Image& image, const FileOptions& options) {
                            : image.bits == 16    ? "uint16"
                                                  : "float";
   OIIO::ImageSpec spec(image.width, image.height, image.channel_count(), OIIO::TypeDesc(type));
+  if (!image.attributes_of.empty()) {
+    const auto like = OIIO::ImageInput::open(image.attributes_of.string());
+    if (!like) fail(image.attributes_of, OIIO::geterror());
+    spec.extra_attribs = like->spec().extra_attribs;
+  }
   spec.channelnames = image.channels;
   for (int c = 0; c < image.channel_count(); ++c)
     if (image.channels[size_t(c)] == "A") spec.alpha_channel = c;
@@ -27,8 +32,8 @@ OIIO::ImageSpec make_spec(const Image& image, const FileOptions& options) {
   if (options.tile > 0) spec.tile_width = spec.tile_height = options.tile;
   for (const auto& [name, value] : options.text) spec.attribute(name, value);
   for (const auto& [name, value] : options.numbers) spec.attribute(name, value);
-  for (const auto& [name, value] : options.vectors)
-    spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, int(value.size())), value.data());
+  for (const auto& [name, value] : options.floats) spec.attribute(name, value);
+  for (const std::string& name : options.without) spec.erase_attribute(name);
   return spec;
 }
 
@@ -70,6 +75,7 @@ Image read_image(const std::filesystem::path& path) {
   const OIIO::ImageSpec& spec = in->spec();
   Image image(spec.width, spec.height);
   image.channels = spec.channelnames;
+  image.attributes_of = path;
   image.samples.resize(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
   if (!in->read_image(0, 0, 0, image.channel_count(), OIIO::TypeDesc::FLOAT, image.samples.data()))
     fail(path, in->geterror());

@@ -14,7 +14,8 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::string> channels{"R", "G", "B"};
   std::vector<float> samples;
-  int bits = 32;  // 8 or 16: code values of integers; 32: floats
+  int bits = 32;                        // 8 or 16: code values of integers; 32: floats
+  std::filesystem::path attributes_of;  // a file whose attributes it is written with; empty: none
 
   Image() = default;
   Image(int columns, int rows, float value = 0)
@@ -58,16 +59,18 @@ struct FileOptions {
   std::string compression = "zip";  // of EXR and TIFF; "jpeg:92"
   int tile = 0;                     // edge of the tiles of an EXR; 0: scanlines
   bool bottom_first = false;        // order of the scanlines of an EXR
-  std::vector<std::pair<std::string, std::string>> text;            // attributes
-  std::vector<std::pair<std::string, int>> numbers;                 // attributes
-  std::vector<std::pair<std::string, std::vector<float>>> vectors;  // attributes
+  std::vector<std::pair<std::string, std::string>> text;  // attributes
+  std::vector<std::pair<std::string, int>> numbers;
+  std::vector<std::pair<std::string, float>> floats;
+  std::vector<std::string> without;  // attributes that are left out
 };
 
 /// Writes a file; the extension says in which format. Throws what went wrong.
 void write_image(const std::filesystem::path& path, const Image& image,
                  const FileOptions& options = {});
 
-/// Reads the first part of a file, integers as code values of `bits`. Throws what went wrong.
+/// Reads the first part of a file, integers as code values; what is written of it has the file's
+/// attributes. Throws what went wrong.
 Image read_image(const std::filesystem::path& path);
 
 /// Filtered by a normalised Gaussian kernel of `size` pixels, as OpenImageIO makes it.

@@ -1,0 +1,21 @@
+#pragma once
+// Skies rendered by the program itself.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace skylapse::diff_cases {
+
+struct RenderRequest {
+  std::filesystem::path program;  // skylapse
+  std::string scene;              // of scenes/, "noon"
+  std::filesystem::path output;
+  std::vector<std::string> options;      // "--set", "air.turbidity=3", "--backend", "osmesa"
+  std::vector<std::string> environment;  // "LP_NATIVE_VECTOR_WIDTH=128"
+};
+
+/// Throws if the program does not end well. Tables that renders share are kept apart by
+/// environment and backend: a render takes nothing from another one's arithmetic.
+void render(const RenderRequest& request);
+
+}  // namespace skylapse::diff_cases
