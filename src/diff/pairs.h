@@ -20,19 +20,26 @@ struct FilePair {
 struct PairList {
   std::vector<FilePair> pairs;    // by name, numbers within names counted as numbers
   std::vector<Finding> findings;  // "sequence.missing" and "sequence.extra" (failures),
-                                  // "folder.extra" (a whole folder that only B has: a warning)
+                                  // "folder.extra" (a whole folder that only B has: a warning),
+                                  // "manifest" (one that cannot be read: a warning)
 };
 
 /// Folders: every image below them (by the extensions OpenImageIO reads, hidden files and folders
 /// passed over, links followed once), by relative path; everything else is passed over. A folder
-/// with a skylapse manifest: the same, with the manifest's facts. Manifests (files named *.json):
-/// the image files they list. `ignore`: glob patterns of names that are left out.
-/// Errors: missing_input (not there, unreadable manifest), invalid_input (a file against a folder).
+/// with a skylapse manifest: the same, with the manifest's facts, which are looked for in the four
+/// folders above, too, and beside single files. Manifests (files named *.json): the image files
+/// they list, by path or, where no path is in both, by frame. `ignore`: glob patterns of names that
+/// are left out. Errors: missing_input (not there, unreadable manifest, no image in A),
+/// invalid_input (a file against a folder).
 Result<PairList> pair_files(const std::string& a, const std::string& b,
                             const std::vector<std::string>& ignore);
 
+/// One side alone, likewise: FilePair with b and what belongs to it, `a` empty.
+Result<PairList> list_files(const std::string& path, const std::vector<std::string>& ignore);
+
 /// Whether `name` ("site/f.0001.exr") fits a glob: * within a folder, ** across folders, ?, [abc].
-/// A pattern without "/" is held against the file's own name.
+/// A pattern without "/" is held against the file's own name; one that ends with "/" fits all below
+/// that folder.
 bool fits_glob(const std::string& name, const std::string& pattern);
 
 }  // namespace skylapse::diff

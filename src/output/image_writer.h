@@ -134,6 +134,8 @@ class ImageIo {
   /// without one the picture stays as it is.
   virtual Status draw_text(image::FrameBuffer& image, int x, int y, int height,
                            const std::string& text) const = 0;
+  /// Extensions of the files that can be read, in lower case without the dot.
+  virtual std::vector<std::string> readable_extensions() const = 0;
   virtual std::string versions() const = 0;  // "OpenImageIO 2.4.7, OpenColorIO 2.1.2"
 };
 

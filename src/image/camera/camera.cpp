@@ -71,6 +71,15 @@ glm::dmat3 look_at(Angle azimuth, Angle elevation, Angle roll) {
           cos(roll) * level_up + sin(roll) * level_right, forward};
 }
 
+Look look_of(const glm::dmat3& camera_to_enu) {
+  const auto forward = Direction<Enu>::from_vector(camera_to_enu[2]);
+  Look look{skylapse::azimuth(forward), skylapse::elevation(forward), {}};
+  const glm::dmat3 level = look_at(look.azimuth, look.elevation, Angle{});
+  look.roll =
+      atan2_angle(-glm::dot(camera_to_enu[0], level[1]), glm::dot(camera_to_enu[0], level[0]));
+  return look;
+}
+
 Direction<CameraFrame> to_camera_frame(const Camera& camera, const Direction<Enu>& direction) {
   return Direction<CameraFrame>::from_vector(direction.vec() * camera.camera_to_enu);
 }

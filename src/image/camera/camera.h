@@ -64,6 +64,16 @@ struct Camera {
 /// looking straight up with azimuth 0 (north), the upper edge points south.
 glm::dmat3 look_at(Angle azimuth, Angle elevation, Angle roll);
 
+/// Where a camera looks.
+struct Look {
+  Angle azimuth, elevation;  // of its forward axis
+  Angle roll;                // (-180, 180] deg
+};
+
+/// Inverse of look_at: look_at of the result has these axes, to rounding. Looking straight up or
+/// down, where azimuth and roll turn about one axis, the azimuth is 0.
+Look look_of(const glm::dmat3& camera_to_enu);
+
 Direction<CameraFrame> to_camera_frame(const Camera& camera, const Direction<Enu>& direction);
 Direction<Enu> to_enu(const Camera& camera, const Direction<CameraFrame>& direction);
 

@@ -9,6 +9,7 @@
 #include "output/imageio/encode.h"
 #include "output/imageio/module_abi.h"
 #include "output/imageio/read.h"
+#include "output/imageio/reader_choice.h"
 
 namespace skylapse::output {
 namespace {
@@ -49,6 +50,9 @@ class ModuleImageIo final : public ImageIo {
   Status draw_text(image::FrameBuffer& image, int x, int y, int height,
                    const std::string& text) const override {
     return imageio::draw_text(image, x, y, height, text);
+  }
+  std::vector<std::string> readable_extensions() const override {
+    return imageio::readable_extensions();
   }
   std::string versions() const override {
     const int v = OIIO::openimageio_version();

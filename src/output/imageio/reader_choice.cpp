@@ -124,6 +124,16 @@ Error unreadable(const std::string& path, const std::string& why) {
           .message = "cannot read image '" + printable(path) + "': " + printable(why)};
 }
 
+std::vector<std::string> readable_extensions() {
+  std::vector<std::string> all;
+  for (const auto& [format, extensions] : OIIO::get_extension_map()) {
+    const bool known = format == "pnm" || std::ranges::count(kByName, format) > 0 ||
+                       std::ranges::count(kMarks, format, &Mark::format) > 0;
+    if (known) all.insert(all.end(), extensions.begin(), extensions.end());
+  }
+  return all;
+}
+
 Result<std::string> reader_for(const std::string& path) {
   const auto head = head_of(path);
   if (!head) return head.error();

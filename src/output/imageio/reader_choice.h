@@ -1,6 +1,7 @@
 #pragma once
 // Which of OpenImageIO's readers a file is given to.
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 
@@ -11,6 +12,9 @@ namespace skylapse::output::imageio {
 /// raws, RLA). Left out: movies, volumes and `null`, whose files are no pictures.
 /// Errors: missing_input: not there, not a regular file (a folder, a pipe), empty, unknown kind.
 Result<std::string> reader_for(const std::string& path);
+
+/// Of the formats that reader_for knows.
+std::vector<std::string> readable_extensions();
 
 /// "cannot read image 'path': why".
 Error unreadable(const std::string& path, const std::string& why);
