@@ -59,7 +59,7 @@ Pair sky_pair(int height, Kind kind) {
 
 void finish(benchmark::State& state, const Pair& pair) {
   state.counters["per_pixel"] = benchmark::Counter(
-      double(pair.a.pixel_count()) * 1e-9,
+      double(pair.a.pixel_count()),
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 

@@ -6,6 +6,14 @@
 
 #define SKYLAPSE_INLINE static inline __attribute__((always_inline))
 
+/// Before a loop that reads nothing which another of its turns writes: the vectoriser need not
+/// prove it.
+#if defined(__clang__)
+#define SKYLAPSE_INDEPENDENT_TURNS _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define SKYLAPSE_INDEPENDENT_TURNS _Pragma("GCC ivdep")
+#endif
+
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define SKYLAPSE_X86 1
 /// One text, compiled for each instruction set by the compiler.

@@ -106,7 +106,8 @@ std::optional<Ends> planned_ends(const Picture& reference, const Picture& test, 
 int planned_count(const FlipOptions& options, double range) {
   if (options.exposures) return std::max(1, *options.exposures);
   if (options.published_exposures) return std::max(2, int(std::ceil(range)));
-  return 1 + int(std::ceil(range / kStopsApart));
+  constexpr double kRounding = 1e-9;  // of logarithms: 12 stops are five steps
+  return 1 + int(std::ceil(range / kStopsApart - kRounding));
 }
 
 }  // namespace

@@ -97,6 +97,7 @@ SKYLAPSE_INLINE void decode_srgb_in(float* values, int count) {
 SKYLAPSE_INLINE void oppose_in(const ColourRows& in, int count, const OpponentRows& out) {
   const ColourRows rows = in;
   const OpponentRows result = out;
+  SKYLAPSE_INDEPENDENT_TURNS
   for (int i = 0; i < count; ++i) {
     const Rgb a{rows.first[0][i], rows.first[1][i], rows.first[2][i]};
     const Rgb b{rows.second[0][i], rows.second[1][i], rows.second[2][i]};
@@ -136,6 +137,7 @@ SKYLAPSE_INLINE void expose_in(const ColourRows& in, const RationalCurve& curve,
   const ColourRows rows = in;
   const OpponentRows result = out;
   const RationalCurve c = curve;
+  SKYLAPSE_INDEPENDENT_TURNS
   for (int i = 0; i < count; ++i) {
     const Shown r = toned(rows.first[0][i], rows.second[0][i], c, scale);
     const Shown g = toned(rows.first[1][i], rows.second[1][i], c, scale);
@@ -167,6 +169,7 @@ SKYLAPSE_INLINE void expose_reinhard_in(const ColourRows& in, float scale, int c
                                         const OpponentRows& out) {
   const ColourRows rows = in;
   const OpponentRows result = out;
+  SKYLAPSE_INDEPENDENT_TURNS
   for (int i = 0; i < count; ++i) {
     const float ar = reinhard_input(rows.first[0][i], scale);
     const float ag = reinhard_input(rows.first[1][i], scale);
@@ -198,6 +201,7 @@ SKYLAPSE_INLINE float length_change(float mx, float my, float dx, float dy) {
 SKYLAPSE_INLINE void errors_in(const FilteredRows& in, int count, float* worst) {
   const FilteredRows rows = in;
   using Field = FilteredRows::Field;
+  SKYLAPSE_INDEPENDENT_TURNS
   for (int i = 0; i < count; ++i) {
     const auto mean = [&](Field f) __attribute__((always_inline)) { return rows.mean[f][i]; };
     const auto change = [&](Field f) __attribute__((always_inline)) {
