@@ -79,15 +79,6 @@ std::string case_xml(const Case& c) {
   return xml + "  </testcase>\n";
 }
 
-/// What a CI page groups failures by: the check or measure that is worst.
-std::string failure_type(const PairResult& pair) {
-  const auto structural = structural_findings(pair);
-  if (!structural.empty() && structural[0]->severity == Verdict::different)
-    return structural[0]->check;
-  const MeasuredValue* worst = worst_measure(pair.measures);
-  return worst && worst->verdict == Verdict::different ? worst->name : "different";
-}
-
 Case case_of(const PairResult& pair) {
   Case c;
   c.name = pair.name;
@@ -97,7 +88,8 @@ Case case_of(const PairResult& pair) {
     c.error = "unreadable", c.message = pair.error->message;
     c.text = one_line(pair.error->message + " " + pair.error->hint) + "\n" + details(pair);
   } else if (pair.verdict == Verdict::different) {
-    c.failure = failure_type(pair), c.text = details(pair);
+    c.failure = headline_of(pair).check, c.text = details(pair);
+    if (c.failure.empty()) c.failure = "different";
   } else {
     c.output = summary_line(pair) + "\n";
     if (pair.verdict == Verdict::warning) c.output += details(pair);

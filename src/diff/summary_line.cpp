@@ -40,7 +40,10 @@ std::string structural_text(const std::vector<const Finding*>& findings) {
   return text;
 }
 
-std::string what_is_wrong(const PairResult& pair) {
+}  // namespace
+
+std::string summary_text(const PairResult& pair) {
+  if (pair.error) return one_line(pair.error->message);
   const auto structural = structural_findings(pair);
   const auto moved = displacements(pair);
   const MeasuredValue* measure = worst_measure(pair.measures);
@@ -59,16 +62,12 @@ std::string what_is_wrong(const PairResult& pair) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-}  // namespace
-
 std::string summary_line(const PairResult& pair) {
-  const std::string name = one_line(pair.name);
-  if (pair.error)
-    return fmt::format("{:<10} {}  {}", "unreadable", name, one_line(pair.error->message));
-  const std::string wrong = what_is_wrong(pair);
-  std::string line = fmt::format("{:<10} {}", name_of(pair.verdict), name);
-  if (!wrong.empty()) line += "  " + wrong;
-  if (!pair.golden.empty() && pair.verdict != Verdict::same)
+  const std::string text = summary_text(pair);
+  std::string line = fmt::format("{:<10} {}", pair.error ? "unreadable" : name_of(pair.verdict),
+                                 one_line(pair.name));
+  if (!text.empty()) line += "  " + text;
+  if (!pair.golden.empty() && !pair.error && pair.verdict != Verdict::same)
     line += fmt::format(" [golden of {}]", one_line(pair.golden));
   return line;
 }

@@ -97,6 +97,18 @@ std::vector<const MeasuredValue*> displacements(const PairResult& pair) {
   return found;
 }
 
+Headline headline_of(const PairResult& pair) {
+  if (pair.error) return {"unreadable", 0, std::nullopt};
+  const auto structural = structural_findings(pair);
+  const auto moved = displacements(pair);
+  const MeasuredValue* measure = moved.empty() ? worst_measure(pair.measures) : moved.front();
+  const bool measure_fails = measure && measure->verdict == Verdict::different;
+  if (!structural.empty() && (structural[0]->severity == Verdict::different || !measure_fails))
+    return {structural[0]->check, 0, structural[0]->place};
+  if (!measure) return {};
+  return {measure->name, limit_ratio(*measure), measure->place};
+}
+
 std::vector<size_t> worst_first(const std::vector<PairResult>& pairs) {
   using Rank = std::tuple<bool, Verdict, bool, bool, double>;
   std::vector<Rank> ranks;

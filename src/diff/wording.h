@@ -24,11 +24,22 @@ double limit_ratio(const MeasuredValue& measure);
 /// one.
 const MeasuredValue* worst_measure(const std::vector<MeasuredValue>& measures);
 
+/// summary_line without verdict and name: what is worst, where in the sky, by how much.
+std::string summary_text(const PairResult& pair);
+
 /// Findings that no measure of the pair stands behind: NaN, size, metadata.
 std::vector<const Finding*> structural_findings(const PairResult& pair);
 
 /// Fitted displacements beyond a limit, the most telling first: of the picture, of the sun.
 std::vector<const MeasuredValue*> displacements(const PairResult& pair);
+
+/// What a pair stands or falls by: a check, or the measure that says most.
+struct Headline {
+  std::string check;  // empty: nothing was measured
+  double ratio = 0;   // value over limit, of measures; 0: a check without a number
+  std::optional<Place> place;
+};
+Headline headline_of(const PairResult& pair);
 
 /// Numbers of the pairs, the worst first: unreadable, structural findings, displaced, by ratio.
 std::vector<size_t> worst_first(const std::vector<PairResult>& pairs);

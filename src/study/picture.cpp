@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "color/exposure.h"
+#include "color/false_color.h"
 #include "color/rgb_space.h"
+#include "core/base64.h"
 #include "core/constants.h"
 #include "core/parallel.h"
 
@@ -109,31 +111,6 @@ double last_sky_row(const SceneResult& scene) {
   return std::floor(rows + 1e-9) - 1;
 }
 
-/// matplotlib's "inferno" (van der Walt & Smith 2015, CC0), every eighth of its length.
-constexpr std::array<glm::dvec3, 9> kInferno{{{0, 0, 4},
-                                              {31, 12, 72},
-                                              {85, 15, 109},
-                                              {136, 34, 106},
-                                              {186, 54, 85},
-                                              {227, 89, 51},
-                                              {249, 140, 10},
-                                              {249, 201, 50},
-                                              {252, 255, 164}}};
-
-std::string base64(const std::vector<std::byte>& bytes) {
-  static constexpr char kDigits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t group = 0;
-    for (size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? uint32_t(bytes[i + k]) : 0);
-    for (size_t k = 0; k < 4; ++k)
-      out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<glm::dvec3> rung_thumbnail(const SceneResult& scene, const Measurement& measured) {
@@ -186,9 +163,7 @@ std::vector<uint8_t> error_map(const std::vector<glm::dvec3>& xyz,
     }
     // Three decades: 0.1 % to 100 %.
     const double error = std::max(relative_error(xyz[i], truth[i]), 1e-9);
-    const double place = std::clamp((std::log10(error) + 3) / 3, 0.0, 1.0) * (kInferno.size() - 1);
-    const size_t k = std::min(size_t(place), kInferno.size() - 2);
-    const glm::dvec3 c = glm::mix(kInferno[k], kInferno[k + 1], place - double(k));
+    const glm::dvec3 c = color::inferno((std::log10(error) + 3) / 3);
     for (int j = 0; j < 3; ++j) rgb.push_back(uint8_t(std::lround(c[j])));
   }
   return rgb;
