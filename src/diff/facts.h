@@ -29,6 +29,7 @@ struct PictureFacts {
   std::optional<double> white_luminance;  // cd/m^2 of 1.0: the unit
   std::string display, display_view;      // "sRGB", "ACES SDR": of display files
   std::string content;                    // "radiance", "sky without disc", "standard error"
+  std::string program;                    // that wrote the file: "skylapse 0.1.0"
   std::string site;
   std::optional<double> latitude_deg, longitude_deg, height_m;
   std::optional<double> exposure_ev100;

@@ -73,6 +73,7 @@ PictureFacts facts_of_file(const output::ReadImage& part, const nlohmann::json* 
   facts.file.model = told.text("skylapse:model", "/frame/model");
   facts.file.renderer = told.text("skylapse:renderer", "/renderer");
   facts.parts = part.parts;
+  facts.program = told.text("Software");
   facts.content = told.text("skylapse:content", "/content");
   facts.exposure_ev100 = told.number("skylapse:exposureEv100", "/frame/exposure/ev100");
   add_place_and_time(told, facts);

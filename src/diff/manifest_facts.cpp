@@ -136,7 +136,10 @@ class ManifestReader {
                {"output", output},
                {"content", content_of(output)},
                {"site", named(list_of(manifest_, "sites"), text_of(frame, "site"))},
-               {"renderer", facts_.renderer}};
+               {"renderer", facts_.renderer},
+               {"program", text_of(manifest_, "program") + " " + text_of(manifest_, "version")},
+               {"source_hash", text_of(manifest_, "source_hash")},
+               {"config", text_of(manifest_, "config")}};
     const json scene_linear = part_of(output, "scene_linear");
     if (scene_linear.is_boolean() && scene_linear.get<bool>())
       entry["color"] = part_of(manifest_, "color");

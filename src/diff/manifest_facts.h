@@ -10,7 +10,8 @@
 namespace skylapse::diff {
 
 struct ManifestFile {
-  std::string entry;     // JSON: "frame", "file", "camera", "output", "color", "site", "renderer"
+  std::string entry;     // JSON: "frame", "file", "camera", "output", "color", "site", "renderer",
+                         // "program", "source_hash", "config"
   std::string sequence;  // files of one output, camera and place share it
   std::string key;       // of the frame and the file within it, whatever the file is named
   double frame = 0;      // its number

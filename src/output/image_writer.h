@@ -31,7 +31,7 @@ struct Attribute {
   std::variant<int, float, double, std::string, std::vector<float>> value;
 };
 
-/// An image ready to be encoded, interleaved RGB, row 0 at the top.
+/// An image ready to be encoded, interleaved, row 0 at the top.
 struct EncodeRequest {
   std::string format;  // "exr", "hdr", "png", "jpg", "tif"
   int width = 0, height = 0;
@@ -40,6 +40,7 @@ struct EncodeRequest {
   std::string compression = "zip";        // exr, tif
   int quality = 92;                       // jpg
   std::vector<Attribute> attributes;      // names as OpenEXR spells them
+  std::vector<std::string> channels = {"R", "G", "B"};  // others in exr alone
 };
 
 /// Where the bytes of a file go; writers may come back to what they have written.
@@ -134,6 +135,9 @@ class ImageIo {
   /// without one the picture stays as it is.
   virtual Status draw_text(image::FrameBuffer& image, int x, int y, int height,
                            const std::string& text) const = 0;
+  /// The same without the samples: what the header says.
+  virtual Result<ReadImage> read_header(const std::string& path, int part,
+                                        const ReadLimits& limits) const = 0;
   /// Extensions of the files that can be read, in lower case without the dot.
   virtual std::vector<std::string> readable_extensions() const = 0;
   virtual std::string versions() const = 0;  // "OpenImageIO 2.4.7, OpenColorIO 2.1.2"

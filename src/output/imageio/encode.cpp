@@ -103,6 +103,9 @@ Status check(const EncodeRequest& r) {
   if (!packing.empty() && std::find(packing.begin(), packing.end(), r.compression) == packing.end())
     return refusal("." + r.format + " files have no compression '" + r.compression + "'",
                    "known: " + listed(packing, [](const std::string& s) { return s; }));
+  const bool rgb = r.channels == EncodeRequest{}.channels;
+  if (r.channels.empty() || (r.format != "exr" && !rgb))
+    return refusal("." + r.format + " files hold R, G and B here", "write .exr");
   if (r.format == "jpg" && (r.quality < 1 || r.quality > 100))
     return refusal("jpeg quality " + std::to_string(r.quality) + " is out of range",
                    "allowed: 1 to 100");
@@ -166,7 +169,8 @@ void add_packing(OIIO::ImageSpec& spec, const EncodeRequest& r) {
 }
 
 OIIO::ImageSpec make_spec(const EncodeRequest& r) {
-  OIIO::ImageSpec spec(r.width, r.height, 3, file_type(r.type));
+  OIIO::ImageSpec spec(r.width, r.height, int(r.channels.size()), file_type(r.type));
+  spec.channelnames = r.channels;
   for (const Attribute& a : r.attributes)
     if (a.name != "capDate" || r.format == "png") add_attribute(spec, a, r.format == "png");
   add_time_stamp(spec, r);
@@ -244,7 +248,7 @@ class OiioRowWriter final : public RowWriter {
   Status add(const void* pixels, int rows) override {
     assert(rows > 0 && next_row_ + rows <= request_.height);
     const void* samples = pixels;
-    const size_t count = size_t{3} * size_t(request_.width) * size_t(rows);
+    const size_t count = request_.channels.size() * size_t(request_.width) * size_t(rows);
     if (request_.type == SampleType::half_float) {
       const Status fits = check_half_range({static_cast<const float*>(pixels), count});
       if (!fits) return fits;

@@ -51,6 +51,10 @@ class ModuleImageIo final : public ImageIo {
                    const std::string& text) const override {
     return imageio::draw_text(image, x, y, height, text);
   }
+  Result<ReadImage> read_header(const std::string& path, int part,
+                                const ReadLimits& limits) const override {
+    return imageio::read_header(path, part, limits);
+  }
   std::vector<std::string> readable_extensions() const override {
     return imageio::readable_extensions();
   }

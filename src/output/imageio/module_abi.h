@@ -5,7 +5,7 @@
 namespace skylapse::output {
 
 /// Raised whenever image_writer.h, FrameBuffer or Result change their layout.
-inline constexpr unsigned kImageModuleAbi = 3;
+inline constexpr unsigned kImageModuleAbi = 4;
 inline constexpr const char* kImageModuleFactory = "skylapse_open_image_module";
 inline constexpr const char* kImageModuleFile = "libskylapse_imageio.so";
 

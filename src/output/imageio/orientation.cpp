@@ -8,7 +8,7 @@ void put_upright(int orientation, ReadImage& image) {
   if (orientation < 2 || orientation > 8) return;
   // 2 mirrored, 3 half a turn, 4 upside down, 5 transposed, 6 and 8 quarter turns, 7 transposed
   // the other way.
-  const bool transposed = orientation >= 5;
+  const bool transposed = is_transposed(orientation);
   const bool from_right =
       orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
   const bool from_below =

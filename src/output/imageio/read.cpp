@@ -205,8 +205,10 @@ int parts_of(OIIO::ImageInput& input, const OIIO::ImageSpec& first) {
   return parts;
 }
 
+enum class Wanted { header, picture };
+
 Result<ReadImage> read_open(const std::string& path, OIIO::ImageInput& input, ReadImage image,
-                            int part, const ReadLimits& limits) {
+                            int part, const ReadLimits& limits, Wanted wanted) {
   const bool exr = image.format == "openexr";
   image.parts = parts_of(input, input.spec());
   if (part < 0 || part >= image.parts || !input.seek_subimage(part, 0))
@@ -218,19 +220,23 @@ Result<ReadImage> read_open(const std::string& path, OIIO::ImageInput& input, Re
   const Window shown = shown_window(spec, exr);
   image.width = int(shown.width());
   image.height = int(shown.height());
+  const int orientation = spec.get_int_attribute("Orientation", 1);
+  if (wanted == Wanted::header) {
+    if (is_transposed(orientation)) std::swap(image.width, image.height);
+    return image;
+  }
   image.samples.resize(size_t(shown.width() * shown.height()) * size_t(spec.nchannels));
   const bool read = PartReader(input, part, spec, shown).into(image.samples);
   // A TIFF or JPEG that ends early is reported as read, with black for the rest: only the text of
   // the error tells.
   if (!read || input.has_error()) return unreadable(path, reason(input));
   if (exr) restore_counts(spec, image.samples);
-  put_upright(spec.get_int_attribute("Orientation", 1), image);
+  put_upright(orientation, image);
   return image;
 }
 
-}  // namespace
-
-Result<ReadImage> read(const std::string& path, int part, const ReadLimits& limits) {
+Result<ReadImage> read_file(const std::string& path, int part, const ReadLimits& limits,
+                            Wanted wanted) {
   const auto format = reader_for(path);
   if (!format) return format.error();
   try {
@@ -241,12 +247,22 @@ Result<ReadImage> read(const std::string& path, int part, const ReadLimits& limi
     if (!input->open(path, spec, config)) return unreadable(path, reason(*input));
     ReadImage image;
     image.format = *format;
-    return read_open(path, *input, std::move(image), part, limits);
+    return read_open(path, *input, std::move(image), part, limits, wanted);
   } catch (const std::bad_alloc&) {
     return unreadable(path, "there is not enough memory for it");
   } catch (const std::exception& thrown) {  // of libraries behind the library
     return unreadable(path, thrown.what());
   }
+}
+
+}  // namespace
+
+Result<ReadImage> read(const std::string& path, int part, const ReadLimits& limits) {
+  return read_file(path, part, limits, Wanted::picture);
+}
+
+Result<ReadImage> read_header(const std::string& path, int part, const ReadLimits& limits) {
+  return read_file(path, part, limits, Wanted::header);
 }
 
 }  // namespace skylapse::output::imageio
