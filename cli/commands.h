@@ -21,6 +21,7 @@ void add_sun_command(CLI::App& app, Session& session);
 void add_events_command(CLI::App& app, Session& session);
 void add_probe_command(CLI::App& app, Session& session);
 void add_study_command(CLI::App& app, Session& session);
+void add_diff_command(CLI::App& app, Session& session);
 void add_sheet_command(CLI::App& app, Session& session);
 void add_movie_command(CLI::App& app, Session& session);
 void add_doctor_command(CLI::App& app, Session& session);

@@ -68,6 +68,7 @@ ExitCode run(int argc, char** argv) {
   add_events_command(app, session);
   add_probe_command(app, session);
   add_study_command(app, session);
+  add_diff_command(app, session);
   add_sheet_command(app, session);
   add_movie_command(app, session);
   add_doctor_command(app, session);

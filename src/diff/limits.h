@@ -1,7 +1,9 @@
 #pragma once
 // From numbers to a verdict: limits of measures, profiles of limits, and rules by path.
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
@@ -9,26 +11,56 @@
 
 namespace skylapse::diff {
 
+/// Values above `warn` warn, values above `fail` fail (of psnr: below). NaN: no limit.
 struct Limit {
-  double warn = kNone, fail = kNone;  // NaN: none
+  double warn = kNone, fail = kNone;
 };
 
-/// Whether a check that is no number fails, warns or is passed over.
+/// What a check that is no number does when it finds something.
 enum class Severity { ignore, warn, fail };
 
-enum class Profile { exact, same_renderer, cross_renderer, cross_model };
+enum class Profile {
+  exact,           // every sample the same
+  same_renderer,   // one program, one machine or driver: other threads, other order of sums
+  cross_renderer,  // other drivers and vector widths, files rounded to halves
+  cross_model,     // another model of the same sky: what must stay is where things are
+};
 
 /// "exact", "same-renderer", "cross-renderer", "cross-model".
 std::string_view name_of(Profile profile);
+std::optional<Profile> profile_from_name(std::string_view name);
+/// The four names.
+std::vector<std::string> profile_names();
 
 struct Limits {
   Profile profile = Profile::cross_renderer;
-  std::map<std::string, Limit> measures;   // by name; "region.*.bias" holds for all regions
-  std::map<std::string, Severity> checks;  // "size", "nan", "metadata.sun"
+  std::map<std::string, Limit> measures;  // "region.*.bias" holds for all regions
+  std::map<std::string, Severity> checks;
 };
 
-/// The limits of a profile, each with its reason in docs/diff.md.
+/// The limits of a profile; their reasons are in docs/diff.md.
 Limits profile_limits(Profile profile);
+
+/// Of a measure; a limit of its own name wins over one of a pattern. No limit: NaN twice.
+Limit limit_of(const Limits& limits, const std::string& measure);
+Severity severity_of(const Limits& limits, const std::string& check);
+
+/// A measure and what its values are.
+struct MeasureKind {
+  std::string_view name;  // "region.*.bias" stands for all regions
+  std::string_view unit;  // "%": values are fractions, written as percent
+  std::string_view meaning;
+};
+/// All measures, in the order of reports.
+const std::vector<MeasureKind>& measure_kinds();
+/// The kind of a measure's name, or of a pattern as limits are written by; null: there is none.
+const MeasureKind* kind_of(const std::string& measure);
+
+/// All checks that are no numbers.
+const std::vector<std::string>& check_names();
+
+/// "0.2 %", "0.002", "off": what a limit may be, in fractions; nothing if it is none of these.
+std::optional<double> parse_limit(std::string_view text);
 
 /// Of a path: later rules win over earlier ones.
 struct PathRule {
@@ -40,13 +72,21 @@ struct PathRule {
 };
 
 struct Rules {
-  Limits limits;                // of everything
-  std::vector<PathRule> paths;  // by path
+  std::optional<Profile> profile;
+  std::map<std::string, Limit> measures;
+  std::map<std::string, Severity> checks;
+  std::vector<std::string> ignore;  // globs of names that are left out
+  std::vector<PathRule> paths;
 };
 
+/// The limits of a file of that name: those of the profile, then the rules of everything, then of
+/// the paths that fit.
 Limits limits_for(const Rules& rules, const std::string& name);
+bool is_ignored(const Rules& rules, const std::string& name);
 
 /// Reads a rules file (YAML, docs/diff.md). All errors in one run, with file:line:column.
 Result<Rules, Diagnostics> read_rules(const std::string& path);
+/// The same of a text; `name` is used in messages.
+Result<Rules, Diagnostics> parse_rules(const std::string& text, const std::string& name);
 
 }  // namespace skylapse::diff

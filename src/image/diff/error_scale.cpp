@@ -55,6 +55,7 @@ ErrorScale error_scale(const Picture& a, const Picture& b) {
     scale.others.push_back(scale.display ? 0 : floor_of(a, b, c, 1));
   using enum SampleStorage::Kind;
   scale.rgbe_step = steps(rgbe, a, b);
+  scale.half_step = std::ldexp(steps(half_float, a, b), -10);  // of the next power of two below
   // Below 2^-14 halves are evenly spaced. What a float loses there it loses for good, and counts;
   // two halves may be neighbours.
   if (a.storage.kind == half_float && b.storage.kind == half_float)

@@ -21,6 +21,7 @@ struct ErrorScale {
   std::vector<float> others;  // floors of the channels after them
   // What rounding in the files may have done to a sample; differences within it are none.
   float absolute_step = 0;  // in units of the samples
+  float half_step = 0;      // as a share of the sample
   float rgbe_step = 0;      // in units of the last place of the strongest channel's eight bits
 };
 

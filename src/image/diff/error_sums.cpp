@@ -101,7 +101,7 @@ class RowPass {
   void colour(float a, float b, int c, float strongest, float rounding, PixelPlace at,
               PixelError& e) {
     // Halves first: the difference of two large numbers of other sign may be too large for a float.
-    const float half = 0.5F * b - 0.5F * a;
+    const float half = 0.5F * b - 0.5F * a, larger = std::max(std::fabs(a), std::fabs(b));
     const double difference = 2.0 * double(half);
     const double size = std::fabs(difference);
     sums_.absolute_sum += size, sums_.absolute_squares += size * size;
@@ -111,7 +111,8 @@ class RowPass {
                                 : std::max({std::fabs(a), std::fabs(b),
                                             float(kWeakChannelShare) * strongest, scale_.floor});
     e.colour[size_t(c)] = 2 * (half / reference);
-    const float beyond = std::max(0.0F, 2 * ((std::fabs(half) - 0.5F * rounding) / reference));
+    const float beyond = std::max(
+        0.0F, 2 * ((std::fabs(half) - 0.5F * (rounding + scale_.half_step * larger)) / reference));
     if (beyond > e.size) e.size = beyond, e.channel = c;
   }
 
@@ -141,8 +142,10 @@ class RowPass {
     const float floor = scale_.others[size_t(c - scale_.colours)];
     const float reference =
         scale_.display ? 1.0F / 255.0F : std::max({std::fabs(a), std::fabs(b), floor});
+    const float rounding =
+        scale_.absolute_step + scale_.half_step * std::max(std::fabs(a), std::fabs(b));
     const float half = std::fabs(0.5F * b - 0.5F * a);
-    const float size = std::max(0.0F, 2 * ((half - 0.5F * scale_.absolute_step) / reference));
+    const float size = std::max(0.0F, 2 * ((half - 0.5F * rounding) / reference));
     if (double(size) > sums_.other_max) sums_.other_max = size, sums_.other_at = {at.x, at.y, c};
     if (size > e.size) e.size = size, e.channel = c;
   }
