@@ -260,6 +260,9 @@ std::string result_text(const diff::DiffResult& result, bool all) {
     text += colored(finding.severity, fmt::format("{:<10} {}: {}", diff::name_of(finding.severity),
                                                   finding.check, finding.message)) +
             "\n";
+  if (result.contrasts > 0)
+    return text + fmt::format("{} pairs of goldens, {} not told apart ({:.1f} s)\n",
+                              result.contrasts, result.pairs.size(), result.seconds);
   if (result.pairs.size() == 1 && result.findings.empty()) return text;
   const diff::Counts counts = diff::counts_of(result);
   return text +

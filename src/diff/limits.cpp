@@ -236,6 +236,7 @@ const std::vector<std::string>& check_names() {
                                               "sequence.repeated",
                                               "folder.extra",
                                               "manifest",
+                                              "golden-changed",
                                               "self-check"};
   return names;
 }

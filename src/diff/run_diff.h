@@ -30,8 +30,8 @@ Result<DiffResult> run_diff(const DiffOptions& options);
 /// agree with one.
 Result<DiffResult> run_golden_diff(const DiffOptions& options);
 
-/// Whether limits still separate: goldens of different scenes that pass for each other. Each such
-/// pair is a finding "self-check"; the pairs of the result are those that were tried.
+/// Whether limits still separate: the pairs of the result are goldens of different scenes that pass
+/// for each other by their pixels, each with a finding "self-check".
 Result<DiffResult> run_self_check(const DiffOptions& options);
 
 /// Copies `b` into the golden folder, for its renderer.

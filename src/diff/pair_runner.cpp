@@ -1,0 +1,106 @@
+#include "diff/pair_runner.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "core/parallel.h"
+#include "core/pipeline.h"
+#include "diff/judge.h"
+
+namespace skylapse::diff {
+namespace {
+
+/// Pairs whose files together are larger than this are compared one after another: a picture may
+/// take sixteen times the bytes of its file in memory.
+constexpr uint64_t kLargeFiles = uint64_t{64} << 20;
+
+uint64_t bytes_of(const std::string& path) {
+  std::error_code ignored;
+  const auto size = std::filesystem::file_size(path, ignored);
+  return ignored ? 0 : size;
+}
+
+bool is_large(const FilePair& pair) { return bytes_of(pair.a) + bytes_of(pair.b) > kLargeFiles; }
+
+bool stopped(const DiffOptions& options) {
+  return options.stop_signal != nullptr && *options.stop_signal != 0;
+}
+
+/// Findings about the sequences among the pairs; limits are those of a sequence's first frame.
+void judge_sequences(const std::vector<FilePair>& pairs, std::vector<PairTrace>& traces,
+                     const Rules& rules, DiffResult& result) {
+  std::map<int, std::vector<TracedFrame>> sequences;
+  for (size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].sequence >= 0)
+      sequences[pairs[i].sequence].push_back({pairs[i].name, std::move(traces[i])});
+  for (const auto& [number, frames] : sequences) {
+    const Limits limits = limits_for(rules, frames.front().name);
+    std::vector<Finding> findings = judge_sequence(frames, limits);
+    result.verdict = std::max(result.verdict, settle(limits, findings));
+    result.findings.insert(result.findings.end(), findings.begin(), findings.end());
+  }
+}
+
+/// The worst of the findings and of the pairs.
+void conclude_all(const Rules& rules, std::vector<Finding> whole, DiffResult& result) {
+  result.verdict = std::max(result.verdict, settle(limits_for(rules, ""), whole));
+  result.findings.insert(result.findings.begin(), whole.begin(), whole.end());
+  for (const PairResult& pair : result.pairs) {
+    result.unreadable = result.unreadable || pair.error.has_value();
+    result.verdict = std::max(result.verdict, pair.error ? Verdict::different : pair.verdict);
+  }
+}
+
+}  // namespace
+
+Status for_each_pair(const std::vector<FilePair>& pairs, const DiffOptions& options,
+                     const std::function<void(Task&)>& work,
+                     const std::function<void(Task&)>& keep) {
+  std::vector<size_t> small, large;
+  for (size_t i = 0; i < pairs.size(); ++i) (is_large(pairs[i]) ? large : small).push_back(i);
+  long done = 0;
+  const auto finish = [&](Task& task) {
+    keep(task);
+    if (options.on_progress)
+      options.on_progress(pairs[task.index].name, ++done, long(pairs.size()));
+  };
+  const auto run = [&](const std::vector<size_t>& order, size_t in_flight) {
+    size_t at = 0;
+    const auto next = [&]() -> std::optional<Task> {
+      if (at >= order.size() || stopped(options)) return {};
+      Task task;
+      task.index = order[at++];
+      return task;
+    };
+    run_pipeline<Task>(in_flight, next, work, finish, FinishOrder::as_done);
+  };
+  run(small, size_t(options.jobs > 0 ? options.jobs : allowed_threads()));
+  run(large, 1);
+  if (stopped(options))
+    return Error{.code = ErrorCode::interrupted, .message = "the comparison was stopped"};
+  return Done{};
+}
+
+Status run_pairs(const std::vector<FilePair>& pairs, const DiffOptions& options,
+                 const std::function<void(Task&)>& work, std::vector<Finding> whole,
+                 DiffResult& result) {
+  const auto begun = std::chrono::steady_clock::now();
+  result.pairs.resize(pairs.size());
+  std::vector<PairTrace> traces(pairs.size());
+  const Status compared = for_each_pair(pairs, options, work, [&](Task& task) {
+    result.pairs[task.index] = std::move(task.result);
+    traces[task.index] = std::move(task.trace);
+  });
+  if (!compared) return compared;
+  judge_sequences(pairs, traces, options.rules, result);
+  conclude_all(options.rules, std::move(whole), result);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return Done{};
+}
+
+void drop_ignored(const Rules& rules, PairList& list) {
+  std::erase_if(list.pairs, [&](const FilePair& p) { return is_ignored(rules, p.name); });
+}
+
+}  // namespace skylapse::diff
