@@ -15,8 +15,9 @@ struct PackedPictures {
   std::vector<std::pair<std::string, std::string>> elements;  // "a", "b", "e", "f": base64
 };
 
-/// Mantissa bits of pixels (0.024 %, finer than half floats) and of errors (6 %, for colours).
-inline constexpr int kPixelMantissa = 11, kErrorMantissa = 3;
+/// Mantissa bits of pixels (0.024 %, finer than half floats) and of errors (1.6 %: no bands in
+/// the colours).
+inline constexpr int kPixelMantissa = 11, kErrorMantissa = 5;
 
 /// Channels of a picture that the page shows, the first ones.
 inline constexpr int kPageChannels = 8;

@@ -67,12 +67,13 @@ function showRows() {
   byId("more").hidden = kept.length <= limit;
   markChosen();
 }
+const breakable = name => name.replace(/[._-]/g, "$&\u200b");  // long names may go on below
 function rowOf(r) {
   const thumb = r.p.pic && byId("e" + r.i) ? make("canvas", {class: "thumb", width: 72, height: 36, "data-thumb": r.i, "aria-hidden": "true"}) : "";
   if (thumb) thumbs.observe(thumb);
   return make("tr", {"data-pair": r.i, class: "v" + r.p.v, on: {click: () => choose(r.i, true)}},
     make("td", {class: "name"}, make("div", {}, thumb, make("span", {}, make("button", {type: "button"}, r.p.n), r.p.v ? make("small", {}, r.p.s) : ""))),
-    make("td", {}, badge(r.p.v)), make("td", {}, r.p.v ? r.check : ""), make("td", {}, r.p.v ? r.region : ""), make("td", {class: "number"}, ratioText(r.ratio)));
+    make("td", {}, make("span", {class: "badge v" + r.p.v, title: kVerdicts[r.p.v].name}, icon(r.p.v), make("span", {class: "hidden"}, kVerdicts[r.p.v].name))), make("td", {}, breakable(r.check)), make("td", {}, r.region), make("td", {class: "number"}, ratioText(r.ratio)));
 }
 // Where the errors lie, small; made when the row comes into view.
 const thumbs = new IntersectionObserver(entries => {

@@ -35,22 +35,24 @@ function offered(mode) {
 }
 // Where full colour begins: at the limit that fails, else where the largest half percent lies.
 function rangeOf(name) {
-  if (view.ranges[name]) return view.ranges[name];
-  if (view.autoRanges[name]) return view.autoRanges[name];
+  return view.ranges[name] || (view.autoRanges[name] = view.autoRanges[name] || autoRange(name));
+}
+function autoRange(name) {
   const limit = name === "relative" ? failLimit(view.pair, view.pictures.display ? "display.max" : "relative.max") : 0;
   const sizes = sizesOf(mapOf(name)), least = name === "flip" ? 0.1 : view.pictures.display ? 1e-3 : 1e-7;
-  return view.autoRanges[name] = limit > 0 ? limit : Math.max(quantile(sizes, 0.995), sizes.length ? least : 1);
+  return limit > 0 ? limit : Math.max(quantile(sizes, 0.995), sizes.length ? least : 1);
 }
 
 // Panels side by side or one above the other, whichever shows more.
 function panels() {
   const width = stage.clientWidth, highest = Math.max(220, Math.min(0.68 * innerHeight, 760));
-  const p = view.pictures, names = view.mode === "overview" ? ["a", "b"].concat(p.error ? ["relative"] : []) : [view.mode];
+  const p = view.pictures, names = view.mode === "overview" ? ["a", "b"].concat(p.error ? ["relative"] : [], p.flip ? ["flip"] : []) : [view.mode];
   const w = Math.max(p.a.w, p.b.w), h = Math.max(p.a.h, p.b.h);
   let best = null;
   for (let columns = 1; columns <= names.length; ++columns) {
     const rows = Math.ceil(names.length / columns), scale = Math.min(width / columns / w, highest / rows / h);
-    if (!best || scale > best.scale * 1.02) best = {columns, rows, scale};
+    // More columns leave room below for what is told of the pair: they may cost a quarter of the size.
+    if (!best || scale > best.scale * 0.75) best = {columns, rows, scale};
   }
   const height = Math.max(180, Math.min(highest, Math.round(best.rows * h * width / best.columns / w)));
   const pw = Math.floor(width / best.columns), ph = Math.floor(height / best.rows);
@@ -231,7 +233,8 @@ function setRange(value) {
   const name = mapKey();
   if (value) view.ranges[name] = value;
   if (!kColoured.includes(view.mode) || (name === "relative" && !view.pictures.error)) return;
-  const now = rangeOf(name);
+  const now = rangeOf(name), middle = Math.round(16 * Math.log10(view.autoRanges[name] || now)) / 4;
+  byId("range").min = Math.min(middle - 16, 4 * Math.log10(now)), byId("range").max = Math.max(middle + 16, 4 * Math.log10(now));
   byId("range").value = 4 * Math.log10(now);
   byId("range-text").textContent = rangeWords(name, now);
   delete view.layers[name];
