@@ -6,6 +6,7 @@
 #include "image/camera/camera_check.h"
 #include "image/camera/camera_words.h"
 #include "image/camera/cube.h"
+#include "image/orientation.h"
 
 namespace skylapse::diff {
 namespace {
@@ -40,6 +41,13 @@ std::optional<Camera> cube_camera(const ToldValues& told, Camera camera) {
   if (word == image::kFacesApart) return face_camera(told, camera);
   const auto layout = word.empty() ? layout_of_shape(camera) : image::cube_layout_from_name(word);
   if (!layout) return std::nullopt;
+  const bool strip =
+      *layout == CubeLayout::horizontal_strip || *layout == CubeLayout::vertical_strip;
+  const auto orientation =
+      image::orientation_from_name(told.text("skylapse:orientation", "/output/orientation"));
+  const bool opengl =
+      orientation && image::convention_of(*orientation).cube_order == image::CubeOrder::opengl;
+  if (strip && opengl) return std::nullopt;
   camera.cube_layout = *layout;
   return camera;
 }

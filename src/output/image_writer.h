@@ -39,7 +39,7 @@ struct EncodeRequest {
   const void* pixels = nullptr;           // half_float: pass float32 pixels, converted inside
   std::string compression = "zip";        // exr, tif
   int quality = 92;                       // jpg
-  std::vector<Attribute> attributes;      // names as OpenEXR spells them
+  std::vector<Attribute> attributes{};    // names as OpenEXR spells them
   std::vector<std::string> channels = {"R", "G", "B"};  // others in exr alone
 };
 

@@ -105,6 +105,13 @@ void add_picture(AttributeList& list, const FrameMetadata& f) {
   list.text("skylapse:projection", f.projection);
   list.text("skylapse:orientation", f.orientation);
   if (f.heading) list.number("skylapse:heading", f.heading->in(deg));
+  list.text("skylapse:cubeLayout", f.cube_layout);
+  if (f.look) {
+    list.number("skylapse:lookAzimuth", f.look->azimuth.in(deg));
+    list.number("skylapse:lookElevation", f.look->elevation.in(deg));
+    list.number("skylapse:roll", f.look->roll.in(deg));
+  }
+  if (f.field_of_view) list.number("skylapse:fieldOfView", f.field_of_view->in(deg));
 }
 
 void add_sun_policy(AttributeList& list, const FrameMetadata& f) {

@@ -9,6 +9,7 @@
 #include "color/rgb_space.h"
 #include "core/frames.h"
 #include "core/quantity.h"
+#include "image/camera/camera.h"
 #include "output/image_writer.h"
 #include "output/sun_policy.h"
 
@@ -50,6 +51,9 @@ struct FrameMetadata {
   std::string projection;        // "lat-long"
   std::string orientation;       // the renderer's convention, where one was asked for: "usd"
   std::optional<Angle> heading;  // azimuth of a map's centre, of a cube's +Z face in OpenEXR's axes
+  std::string cube_layout;       // "cross"; "faces": each in a file of its own
+  std::optional<image::Look> look;     // of pictures that do not stand upright
+  std::optional<Angle> field_of_view;  // of perspective and fisheye pictures
   std::optional<double> exposure_ev100;
   std::string model;                           // "hosek-wilkie"
   bool extrapolated = false;                   // outside the model's range

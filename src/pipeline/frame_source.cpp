@@ -5,6 +5,7 @@
 
 #include "color/rgb_space.h"
 #include "core/constants.h"
+#include "image/camera/camera_words.h"
 #include "image/orientation.h"
 #include "pipeline/image_file.h"
 #include "pipeline/reference_sky.h"
@@ -63,18 +64,18 @@ void describe_picture(const FrameLight& light, const config::ImageOutput& output
   meta.content = content_of(light, output);
   meta.disc_treated = output.content == config::ImageContent::radiance && light.disc_shows;
   const image::Projection projection = camera.camera.projection;
-  meta.projection = projection_name(projection);
+  meta.projection = image::name_of(projection);
   if (output.orientation) meta.orientation = image::name_of(*output.orientation);
+  const image::Look look = image::look_of(camera.camera.camera_to_enu);
   if (image::stands_upright(projection))
-    meta.heading = azimuth(Direction<Enu>::from_vector(camera.camera.camera_to_enu[2]));
-}
-
-std::string projection_name(image::Projection projection) {
-  constexpr std::array kNames{"perspective",       "fisheye-equidistant",
-                              "fisheye-equisolid", "fisheye-stereographic",
-                              "lat-long",          "cube",
-                              "octahedral",        "mirror-ball"};
-  return kNames[size_t(projection)];
+    meta.heading = look.azimuth;
+  else
+    meta.look = look;
+  if (!image::sees_whole_sphere(projection)) meta.field_of_view = camera.camera.field_of_view;
+  // KTX 2 holds six images, whatever the layout.
+  if (projection == image::Projection::cube && output.format != "ktx2")
+    meta.cube_layout = std::string(camera.cube_faces_apart ? image::kFacesApart
+                                                           : name_of(camera.camera.cube_layout));
 }
 
 LedgerEntry entry_for(const FrameSource& source, std::string file, std::string fingerprint) {

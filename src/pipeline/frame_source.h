@@ -33,9 +33,6 @@ output::FrameMetadata metadata_of(const plan::Plan& plan, const plan::Frame& fra
 void describe_picture(const FrameLight& light, const config::ImageOutput& output,
                       const config::CameraConfig& camera, output::FrameMetadata& meta);
 
-/// The config's word: "lat-long", "fisheye-equidistant".
-std::string projection_name(image::Projection projection);
-
 /// A record of a finished file with the light of the frame and how sure it is.
 LedgerEntry entry_for(const FrameSource& source, std::string file, std::string fingerprint);
 

@@ -9,6 +9,7 @@
 #include "color/rgb_space.h"
 #include "core/constants.h"
 #include "core/parallel.h"
+#include "image/camera/camera_words.h"
 #include "output/stored_numbers.h"
 #include "pipeline/frame_files.h"
 
@@ -146,9 +147,15 @@ Status ImageFile::open() {
   request.compression = output_.compression;
   request.quality = output_.quality;
   request.attributes = output::frame_attributes(metadata());
-  for (const std::string& name : files_) {
+  const auto common = request.attributes.size();
+  for (size_t i = 0; i < files_.size(); ++i) {
     Part part;
-    auto file = output::StreamedFile::create(source_.folder / name);
+    request.attributes.resize(common);
+    if (files_.size() == image::kCubeFaces.size()) {
+      const auto face = static_cast<image::CubeFace>(view_.faces[i]);
+      request.attributes.push_back({"skylapse:cubeFace", std::string(name_of(face))});
+    }
+    auto file = output::StreamedFile::create(source_.folder / files_[i]);
     if (!file) return file.error();
     part.file = *std::move(file);
     const StageTimer timer(times_, Stage::encode);

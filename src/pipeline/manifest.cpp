@@ -8,6 +8,7 @@
 #include "color/rgb_space.h"
 #include "core/constants.h"
 #include "core/version.h"
+#include "image/camera/camera_words.h"
 #include "image/orientation.h"
 #include "output/atomic_file.h"
 #include "output/sun_policy.h"
@@ -57,17 +58,18 @@ ordered_json sites_json(const config::JobConfig& job) {
 }
 
 ordered_json camera_json(const config::CameraConfig& camera) {
-  constexpr std::array kLayouts{"horizontal-strip", "vertical-strip", "cross", "vertical-cross"};
-  const auto forward = Direction<Enu>::from_vector(glm::dvec3(camera.camera.camera_to_enu[2]));
+  const image::Look look = image::look_of(camera.camera.camera_to_enu);
   ordered_json out{{"name", camera.name},
-                   {"projection", projection_name(camera.camera.projection)},
+                   {"projection", name_of(camera.camera.projection)},
                    {"width", camera.camera.width},
                    {"height", camera.camera.height},
                    {"field_of_view_deg", camera.camera.field_of_view.in(deg)},
-                   {"azimuth_deg", azimuth(forward).in(deg)},
-                   {"elevation_deg", elevation(forward).in(deg)}};
+                   {"azimuth_deg", look.azimuth.in(deg)},
+                   {"elevation_deg", look.elevation.in(deg)},
+                   {"roll_deg", look.roll.in(deg)}};
   if (camera.camera.projection == image::Projection::cube)
-    out["layout"] = camera.cube_faces_apart ? "faces" : kLayouts[size_t(camera.camera.cube_layout)];
+    out["layout"] =
+        camera.cube_faces_apart ? image::kFacesApart : name_of(camera.camera.cube_layout);
   return out;
 }
 

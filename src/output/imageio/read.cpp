@@ -3,12 +3,18 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <memory>
 #include <new>
 #include <optional>
+#include <shared_mutex>
+#include <string_view>
+#include <utility>
 
+#include "output/imageio/header_check.h"
+#include "output/imageio/isolated_read.h"
 #include "output/imageio/orientation.h"
 #include "output/imageio/reader_choice.h"
 
@@ -110,7 +116,7 @@ SampleStorage storage_of(const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const
   } else if (!type.is_floating_point()) {
     s.kind = SampleStorage::Kind::integer;
     const int stored = spec.get_int_attribute("oiio:BitsPerSample");
-    if (stored > 0 && stored < s.bits) s.bits = stored;
+    if (stored > 0 && stored < s.bits && image.format != "ico") s.bits = stored;
   }
   return s;
 }
@@ -121,7 +127,8 @@ void describe(const OIIO::ImageSpec& spec, ReadImage& image) {
   image.compression = spec.get_string_attribute("compression");
   image.part_name = spec.get_string_attribute("oiio:subimagename");
   for (int c = 0; c < spec.nchannels; ++c) {
-    image.channels.push_back(spec.channel_name(c));
+    const std::string name = spec.channel_name(c);
+    image.channels.push_back(name.empty() ? "channel" + std::to_string(c) : name);
     image.storage.push_back(storage_of(spec, spec.channelformat(c), image));
   }
   for (const OIIO::ParamValue& p : spec.extra_attribs)
@@ -149,13 +156,13 @@ class PartReader {
     return input_.read_image(part_, 0, 0, spec_.nchannels, OIIO::TypeFloat,
                              at(samples, stored_.x0, stored_.y0), step, step * shown_.width());
   }
-  /// A data window that reaches beyond what is shown: in bands, of which a part is kept.
+  /// A data window that reaches beyond what is shown: in bands, of which a part is kept. What is
+  /// not kept is read as well: it tells a file that was cut short.
   bool cropped(std::vector<float>& samples) {
     const Window kept = common_part(stored_, shown_);
     const int64_t rows = spec_.tile_height > 0 ? spec_.tile_height : 64;
-    const int64_t first = stored_.y0 + (kept.y0 - stored_.y0) / rows * rows;
     std::vector<float> band(pixel() * size_t(stored_.width() * rows));
-    for (int64_t y = first; y < kept.y1; y += rows) {
+    for (int64_t y = stored_.y0; y < stored_.y1; y += rows) {
       const int64_t end = std::min(y + rows, stored_.y1);
       if (!read_band(y, end, band.data())) return false;
       for (int64_t row = std::max(y, kept.y0); row < std::min(end, kept.y1); ++row) {
@@ -196,9 +203,12 @@ std::string reason(OIIO::ImageInput& input) {
   return why.empty() ? "it is damaged" : why.substr(0, why.find('\n'));
 }
 
-int parts_of(OIIO::ImageInput& input, const OIIO::ImageSpec& first) {
+/// Of formats that hold several and do not say how many, by trying.
+int parts_of(OIIO::ImageInput& input, const OIIO::ImageSpec& first, const std::string& format) {
   const int told = first.get_int_attribute("oiio:subimages");
   if (told > 0) return told;
+  constexpr std::array<std::string_view, 4> kSeveral{"tiff", "gif", "ico", "psd"};
+  if (std::ranges::count(kSeveral, format) == 0) return 1;
   int parts = 1;
   while (parts < 65536 && input.seek_subimage(parts, 0)) ++parts;
   (void)input.geterror();  // of the part that is not there
@@ -210,7 +220,7 @@ enum class Wanted { header, picture };
 Result<ReadImage> read_open(const std::string& path, OIIO::ImageInput& input, ReadImage image,
                             int part, const ReadLimits& limits, Wanted wanted) {
   const bool exr = image.format == "openexr";
-  image.parts = parts_of(input, input.spec());
+  image.parts = parts_of(input, input.spec(), image.format);
   if (part < 0 || part >= image.parts || !input.seek_subimage(part, 0))
     return unreadable(path, "it has no part " + std::to_string(part));
   const OIIO::ImageSpec spec = input.spec();
@@ -235,24 +245,39 @@ Result<ReadImage> read_open(const std::string& path, OIIO::ImageInput& input, Re
   return image;
 }
 
-Result<ReadImage> read_file(const std::string& path, int part, const ReadLimits& limits,
+/// Readers that stood the fuzzing; the others work in a process of their own.
+constexpr std::array<std::string_view, 6> kSturdy{"openexr", "png", "jpeg", "tiff", "hdr", "pnm"};
+
+Result<ReadImage> read_with(OIIO::ImageInput& input, const std::string& path,
+                            const std::string& format, int part, const ReadLimits& limits,
                             Wanted wanted) {
-  const auto format = reader_for(path);
-  if (!format) return format.error();
   try {
-    const auto input = OIIO::ImageInput::create(*format);
-    if (!input) return unreadable(path, "no reader for " + *format + " images is installed");
     OIIO::ImageSpec config, spec;
     config.attribute("oiio:UnassociatedAlpha", 1);  // as stored: not multiplied by alpha
-    if (!input->open(path, spec, config)) return unreadable(path, reason(*input));
+    if (!input.open(path, spec, config)) return unreadable(path, reason(input));
     ReadImage image;
-    image.format = *format;
-    return read_open(path, *input, std::move(image), part, limits, wanted);
+    image.format = format;
+    return read_open(path, input, std::move(image), part, limits, wanted);
   } catch (const std::bad_alloc&) {
     return unreadable(path, "there is not enough memory for it");
   } catch (const std::exception& thrown) {  // of libraries behind the library
     return unreadable(path, thrown.what());
   }
+}
+
+Result<ReadImage> read_file(const std::string& path, int part, const ReadLimits& limits,
+                            Wanted wanted) {
+  const auto format = reader_for(path);
+  if (!format) return format.error();
+  if (const std::string why = header_problem(path, *format, limits); !why.empty())
+    return unreadable(path, why);
+  std::shared_lock with_others(library_in_use());
+  const auto input = OIIO::ImageInput::create(*format);
+  if (!input) return unreadable(path, "no reader for " + *format + " images is installed");
+  const auto read_it = [&] { return read_with(*input, path, *format, part, limits, wanted); };
+  if (std::ranges::count(kSturdy, *format) > 0) return read_it();
+  with_others.unlock();
+  return read_in_child(path, limits, read_it);
 }
 
 }  // namespace
