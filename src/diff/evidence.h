@@ -10,7 +10,7 @@ namespace skylapse::diff {
 struct PairEvidence {
   image::Picture a, b;
   std::vector<float> error;  // image::Comparison::error; empty if the pictures cannot be compared
-  std::vector<float> flip;   // FLIP map; empty if it cannot be made
+  std::vector<float> flip;   // FLIP map, planned exposures; empty as `error`
 };
 
 /// Reads both files again. Errors: missing_input.
