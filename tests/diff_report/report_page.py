@@ -262,7 +262,7 @@ def try_list(page):
     page.eval(chip % "warning")
     page.eval(chip % "same")
     press = "[...document.querySelectorAll('#rows thead button')].find(b => b.textContent === '%s').click()"
-    for column in ("Picture", "Check", "Region", "Limit", "Verdict"):
+    for column in ("Picture", "Check", "Region", "\u00d7 limit", "Verdict"):
         page.eval(press % column)
         up = page.eval(names)
         page.eval(press % column)

@@ -53,7 +53,7 @@ const hasCheck = (r, check) => r.check === check || r.p.f.some(f => f[1] === che
 const hasRegion = (r, region) => r.region === region || r.p.m.some(m => m[2] && m[3] && m[3][6] === region);
 const collator = new Intl.Collator("en", {numeric: true});
 const kColumns = [["Picture", (a, b) => collator.compare(a.p.n, b.p.n)], ["Verdict", (a, b) => a.i - b.i], ["Check", (a, b) => collator.compare(a.check || "\uffff", b.check || "\uffff") || a.i - b.i],
-  ["Region", (a, b) => collator.compare(a.region || "\uffff", b.region || "\uffff") || a.i - b.i], ["Limit", (a, b) => (b.ratio === a.ratio ? 0 : b.ratio - a.ratio) || a.i - b.i]];
+  ["Region", (a, b) => collator.compare(a.region || "\uffff", b.region || "\uffff") || a.i - b.i], ["\u00d7 limit", (a, b) => (b.ratio === a.ratio ? 0 : b.ratio - a.ratio) || a.i - b.i]];
 let sortBy = 1, up = true, limit = kPage, chosen = -1, kept = rows;
 function showRows() {
   const name = byId("by-name").value.toLowerCase(), check = byId("by-check").value, region = byId("by-region").value;
@@ -181,5 +181,6 @@ byId("theme").addEventListener("click", () => {
 });
 showRows();
 const wanted = location.hash.length > 1 ? data.pairs.findIndex(p => { try { return p.n === decodeURIComponent(location.hash.slice(1)); } catch { return false; } }) : -1;
-if (wanted >= 0 || rows.length) choose(Math.max(0, wanted), false);
+const seen = data.pairs.findIndex(p => p.v && p.pic && p.pic.note === undefined);  // the worst with something to see
+if (wanted >= 0 || rows.length) choose(wanted >= 0 ? wanted : Math.max(0, seen), false);
 else byId("list").hidden = byId("detail").hidden = true;

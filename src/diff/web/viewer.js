@@ -205,6 +205,8 @@ async function openViewer(number, place) {
   const auto = autoStops(pictures.a, pictures.display), limit = Math.max(24, Math.ceil(Math.abs(auto)) + 16);
   for (const id of ["exposure", "exposure-number"]) byId(id).min = -limit, byId(id).max = limit;
   byId("viewer").hidden = false;
+  const worst = worstPlace();
+  view.cursor = worst && worst.x < pictures.a.w && worst.y < pictures.a.h ? [worst.x, worst.y] : null;
   setStops(auto), showNotes(), setMode(view.mode), fit(), showReadout();
   return true;
 }
