@@ -63,11 +63,12 @@ TEST(Evidence, HoldsBothPicturesAndTheirErrors) {
 
 TEST(Evidence, OfEqualFilesIsNothingAndOfOtherSizesHasNoErrors) {
   const image::Picture a = sample_sky(180);
-  const auto equal = read_evidence(Files(a, a).pair);
+  const Files same(a, a), sizes(a, sample_sky(90, 5000, 128, 64));
+  const auto equal = read_evidence(same.pair);
   ASSERT_TRUE(equal.ok());
   EXPECT_EQ(*std::ranges::max_element(equal->flip), 0);
   EXPECT_EQ(equal->flip.size(), a.pixel_count());
-  const auto other = read_evidence(Files(a, sample_sky(90, 5000, 128, 64)).pair);
+  const auto other = read_evidence(sizes.pair);
   ASSERT_TRUE(other.ok());
   EXPECT_TRUE(other->error.empty());
   EXPECT_TRUE(other->flip.empty());
@@ -118,7 +119,9 @@ TEST(HeatMap, OfPicturesThatCannotBeComparedIsAllUnknown) {
   ASSERT_TRUE(write_heat_map(files.pair, (files.folder / "map.png").string()).ok());
   const std::string path = (files.folder / "map.exr").string();
   ASSERT_TRUE(write_heat_map(files.pair, path).ok());
-  for (const float e : read_picture(path, {})->picture.samples) ASSERT_TRUE(std::isinf(e));
+  const auto map = read_picture(path, {});
+  ASSERT_TRUE(map.ok());
+  for (const float e : map->picture.samples) ASSERT_TRUE(std::isinf(e));
 }
 
 TEST(HeatMapScale, IsLogarithmicAndHeldToItsEnds) {
