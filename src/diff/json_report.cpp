@@ -104,6 +104,7 @@ std::string json_report(const DiffResult& result) {
          {"unreadable", result.unreadable},
          {"exit_code", exit_code_of(result)},
          {"seconds", number(result.seconds)},
+         {"contrasts", result.contrasts},
          {"counts",
           {{"same", counts.same},
            {"warning", counts.warning},

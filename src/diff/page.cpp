@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -84,15 +85,26 @@ Json counts_json(const DiffResult& result) {
           {"same", counts.same}};
 }
 
+/// Pictures that are packed one after the other, to bound the memory: beyond 2896 x 2896 pixels.
+bool is_large(const PairResult& pair) {
+  const auto pixels = [](const FileFacts& f) { return uint64_t(f.width) * uint64_t(f.height); };
+  return std::max(pixels(pair.a), pixels(pair.b)) > 1u << 23;
+}
+
 class Page {
  public:
   Page(const DiffResult& result, const EvidenceSource& evidence, const PageOptions& options)
       : result_(result), order_(worst_first(result.pairs)) {
     pictures_.resize(std::min<size_t>(order_.size(), std::max(0, options.pictures)));
+    const auto pack = [&](size_t rank) {
+      pictures_[rank] = pictures_of(result.pairs[order_[rank]], evidence, options.max_width);
+    };
     parallel_for_ranges(pictures_.size(), 1, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
-        pictures_[i] = pictures_of(result.pairs[order_[i]], evidence, options.max_width);
+        if (!is_large(result.pairs[order_[i]])) pack(i);
     });
+    for (size_t i = 0; i < pictures_.size(); ++i)
+      if (is_large(result.pairs[order_[i]])) pack(i);
   }
 
   [[nodiscard]] std::string html() {
