@@ -167,7 +167,7 @@ void Panel::draw_title(const PairResult& pair) {
 void Panel::draw_scale(bool display_referred) {
   const Scale& scale = scale_of(display_referred);
   const int y = kTop + layout_.height + 12, height = 12;
-  const int left = kLeft + 70, width = std::min(520, image_.width() - left - kRight - 20);
+  const int left = kLeft + 84, width = std::min(520, image_.width() - left - kRight - 20);
   for (int x = 0; x < width; ++x) {
     const double error = scale.from * std::pow(scale.to / scale.from, (x + 0.5) / width);
     fill(image_, left + x, y, 1, height, colour_of(float(error), display_referred));
