@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "core/parallel.h"
 #include "image/diff/flip.h"
@@ -63,8 +64,14 @@ void finish(benchmark::State& state, const Pair& pair) {
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-void measures(benchmark::State& state, Kind kind) {
-  const Pair pair = sky_pair(int(state.range(0)), kind);
+/// With a projection, camera and sun are known: every pixel has a direction, and regions.
+void measures(benchmark::State& state, Kind kind, std::optional<Projection> projection) {
+  Pair pair = sky_pair(int(state.range(0)), kind);
+  if (projection) {
+    pair.view.camera =
+        Camera{.projection = *projection, .width = pair.a.width, .height = pair.a.height};
+    pair.view.sun = direction_at(*pair.view.camera, {pair.a.width / 2.0, pair.a.height / 3.0});
+  }
   const ThreadLimit limit(int(state.range(1)));
   for (auto _ : state) benchmark::DoNotOptimize(compare(pair.a, pair.b, pair.view));
   finish(state, pair);
@@ -105,8 +112,12 @@ void one_size(benchmark::internal::Benchmark* b) {
   b->ArgsProduct({{512}, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
-BENCHMARK_CAPTURE(measures, linear, Kind::linear)->Apply(sizes);
-BENCHMARK_CAPTURE(measures, display, Kind::display)->Apply(one_size);
+BENCHMARK_CAPTURE(measures, linear, Kind::linear, std::nullopt)->Apply(one_size);
+BENCHMARK_CAPTURE(measures, lat_long, Kind::linear, Projection::lat_long)->Apply(sizes);
+BENCHMARK_CAPTURE(measures, fisheye, Kind::linear, Projection::fisheye_equidistant)
+    ->Apply(one_size);
+BENCHMARK_CAPTURE(measures, perspective, Kind::linear, Projection::perspective)->Apply(one_size);
+BENCHMARK_CAPTURE(measures, display, Kind::display, std::nullopt)->Apply(one_size);
 BENCHMARK(flip_of_display)->Apply(sizes);
 BENCHMARK_CAPTURE(flip_of_light, aces, ToneMapper::aces)->Apply(sizes);
 BENCHMARK_CAPTURE(flip_of_light, reinhard, ToneMapper::reinhard)->Apply(one_size);
