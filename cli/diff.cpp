@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
@@ -302,6 +303,13 @@ ExitCode exit_code(const diff::DiffResult& result) {
   return ExitCode::differs;
 }
 
+/// Nothing has been accepted yet: the first goldens have nothing to be held against.
+bool is_first_acceptance(const DiffArguments& a) {
+  std::error_code ec;
+  return a.update && (!std::filesystem::exists(a.golden_folder, ec) ||
+                      std::filesystem::is_empty(a.golden_folder, ec));
+}
+
 ExitCode run_diff_command(const DiffArguments& a, const ConsoleOptions& console) {
   auto options = options_of(a);
   if (!options) return report(options.error());
@@ -312,7 +320,8 @@ ExitCode run_diff_command(const DiffArguments& a, const ConsoleOptions& console)
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
     if (total > 16) progress->show({done, total, 0, taken.count(), "comparing"});
   };
-  const auto result = a.self_check              ? diff::run_self_check(*options)
+  const auto result = is_first_acceptance(a)    ? Result<diff::DiffResult>(diff::DiffResult{})
+                      : a.self_check            ? diff::run_self_check(*options)
                       : a.golden_folder.empty() ? diff::run_diff(*options)
                                                 : diff::run_golden_diff(*options);
   progress.reset();

@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 DiffResult everything() {
-  DiffResult result{"golden", "out", {}, {}, Verdict::different, true, 1.5};
+  DiffResult result{"golden", "out", {}, {}, Verdict::different, true, 0, 1.5};
   PairResult bad = sample_pair("site/f.0001.exr");
   fail_measure(bad, "relative.max", std::numeric_limits<double>::infinity(),
                place_at(1, 2, 90, 45, "zenith"));

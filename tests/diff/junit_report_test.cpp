@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 DiffResult with(std::vector<PairResult> pairs) {
-  return {"golden", "out", std::move(pairs), {}, Verdict::different, false, 0.25};
+  return {"golden", "out", std::move(pairs), {}, Verdict::different, false, 0, 0.25};
 }
 
 /// One case of everything, with all that a name can hold.

@@ -33,7 +33,7 @@ Json data_of(const std::string& page) {
 class Sample {
  public:
   Sample() {
-    result_ = {"golden", "out", {}, {}, Verdict::different, true, 1.25};
+    result_ = {"golden", "out", {}, {}, Verdict::different, true, 0, 1.25};
     result_.findings.push_back(
         {Verdict::different, "sequence.missing", "f.0009.exr is missing in B", {}});
     add_moved_sun();
@@ -127,7 +127,7 @@ class Sample {
 };
 
 DiffResult many(size_t count) {
-  DiffResult result{"golden", "out", {}, {}, Verdict::different, false, 60};
+  DiffResult result{"golden", "out", {}, {}, Verdict::different, false, 0, 60};
   for (size_t i = 0; i < count; ++i) {
     PairResult pair = sample_pair("site_of_a_sequence/frame." + std::to_string(10000 + i) + ".exr");
     pair.b.renderer = "llvmpipe (LLVM 15.0.6, 256 bits)";
