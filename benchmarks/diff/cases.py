@@ -29,6 +29,7 @@ def arguments():
     parser.add_argument("--generator", type=pathlib.Path, help="default: BUILD/bin/diff_cases")
     parser.add_argument("--folder", type=pathlib.Path, help="keep the pictures here; what is there is used again")
     parser.add_argument("--check", action="store_true", help="skylapse alone, exit 1 on a wrong decision")
+    parser.add_argument("--few", action="store_true", help="fewer frames, as in the tests")
     parser.add_argument("--only", default="*", help="ids, with wildcards, separated by commas")
     parser.add_argument("--jobs", type=int, default=2)
     return parser.parse_args()
@@ -100,7 +101,7 @@ def main():
     folder = args.folder or pathlib.Path(tempfile.mkdtemp(prefix="skylapse-diff-cases-"))
     try:
         if not (folder / "list.tsv").exists():
-            made = subprocess.run([generator, folder, program], stdout=sys.stderr)
+            made = subprocess.run([generator, folder, program, *(["few"] if args.few else [])], stdout=sys.stderr)
             if made.returncode != 0:
                 sys.exit(f"{generator} failed")
         with open(folder / "list.tsv", encoding="utf-8") as file:

@@ -139,8 +139,6 @@ std::vector<Damage> damages_of_places() {
        [](const Image& a) {
          return moved(a, [](int x, int y) { return Pixel{x / 2 * 2, y / 2 * 2}; });
        }},
-      {"sharpened", "sharpened, which rings beside edges",
-       [](const Image& a) { return mixed(a, blurred(a, 3), -0.5); }},
       {"row+1%", "one row 1 % high",
        [](const Image& a) {
          return changed(a, [&](int, int y, int, float v) {
@@ -164,6 +162,14 @@ std::vector<Damage> damages_of_places() {
            return Pixel{x, y};
          });
        }},
+  };
+}
+
+/// Rings beside edges: of pictures that have some.
+std::vector<Damage> damages_of_edges() {
+  return {
+      {"sharpened", "sharpened, which rings beside edges",
+       [](const Image& a) { return mixed(a, blurred(a, 3), -0.5); }},
   };
 }
 
@@ -332,11 +338,12 @@ void add_display(CaseList& list) {
 }  // namespace
 
 void add_damages(CaseList& list) {
-  for (const char* const frame :
+  for (const std::string frame :
        {"day", "noon", "evening", "twilight", "fisheye", "view", "cube"}) {
     apply(list, frame, damages_of_light());
     apply(list, frame, damages_of_places());
     apply(list, frame, damages_of_samples());
+    if (frame != "view") apply(list, frame, damages_of_edges());
   }
   for (const char* const frame : {"noon", "evening", "small"}) add_sun(list, frame);
   add_night(list);

@@ -23,7 +23,8 @@ void render(const RenderRequest& r) {
     command += " " + quoted(e);
     arithmetic += e + " ";
   }
-  for (const std::string& option : r.options) arithmetic += option + " ";
+  for (const std::string& option : r.options)
+    if (option == "osmesa") arithmetic += option;
   const auto cache =
       r.output.parent_path() / ("cache-" + std::to_string(std::hash<std::string>{}(arithmetic)));
   command +=

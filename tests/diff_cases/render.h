@@ -14,8 +14,8 @@ struct RenderRequest {
   std::vector<std::string> environment;  // "LP_NATIVE_VECTOR_WIDTH=128"
 };
 
-/// Throws if the program does not end well. Tables that renders share are kept apart by
-/// environment and backend: a render takes nothing from another one's arithmetic.
+/// Throws if the program does not end well. Renders share tables only if they have one environment
+/// and one OpenGL: none takes anything from another's arithmetic.
 void render(const RenderRequest& request);
 
 }  // namespace skylapse::diff_cases
