@@ -310,9 +310,25 @@ bool is_first_acceptance(const DiffArguments& a) {
                       std::filesystem::is_empty(a.golden_folder, ec));
 }
 
+/// The first acceptance has nothing to compare with.
+bool is_first_acceptance(const DiffArguments& a) {
+  std::error_code none;
+  return a.update && (!std::filesystem::exists(a.golden_folder, none) ||
+                      std::filesystem::is_empty(a.golden_folder, none));
+}
+
+ExitCode accept(const DiffArguments& a, const diff::DiffOptions& options,
+                const ConsoleOptions& console) {
+  if (const Status accepted = diff::accept_goldens(options, a.note); !accepted)
+    return report(accepted.error());
+  note(console, fmt::format("goldens in {} are now those of {}", a.golden_folder, options.b));
+  return ExitCode::done;
+}
+
 ExitCode run_diff_command(const DiffArguments& a, const ConsoleOptions& console) {
   auto options = options_of(a);
   if (!options) return report(options.error());
+  if (is_first_acceptance(a)) return accept(a, *options, console);
   catch_signals();
   auto progress = std::make_unique<ProgressBar>(console);
   const auto begun = std::chrono::steady_clock::now();
@@ -334,10 +350,7 @@ ExitCode run_diff_command(const DiffArguments& a, const ConsoleOptions& console)
     if (pair.error) report(*pair.error);
   if (const Status written = write_reports(a, *result); !written) return report(written.error());
   if (!a.update) return exit_code(*result);
-  if (const Status accepted = diff::accept_goldens(*options, a.note); !accepted)
-    return report(accepted.error());
-  note(console, fmt::format("goldens in {} are now those of {}", a.golden_folder, options->b));
-  return ExitCode::done;
+  return accept(a, *options, console);
 }
 
 void add_report_options(CLI::App& command, DiffArguments& a) {

@@ -12,6 +12,8 @@ namespace {
 /// Steeper than that per pixel (as a share of the light) a straight line is no picture of an edge.
 constexpr float kSteepest = 0.2F;
 constexpr int kParts = 64;
+/// Pixels that are enough: of larger pictures every n-th row is taken.
+constexpr int64_t kEnoughPixels = int64_t{1} << 17;
 
 float light_of(const Picture& p, int x, int y) {
   const float* v = p.pixel(x, y);
@@ -67,12 +69,13 @@ class Gradients {
 
 Normal normal_of(const Picture& a, const Picture& b, bool wraps) {
   const Gradients gradients(a, b, wraps);
-  const int rows = a.height - 2, parts = std::min(rows, kParts);
+  const int64_t step = std::max<int64_t>(1, int64_t(a.pixel_count()) / kEnoughPixels);
+  const int rows = int((a.height - 2 + step - 1) / step), parts = std::min(rows, kParts);
   std::vector<Normal> sums(static_cast<size_t>(parts));
   parallel_for_ranges(sums.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      const auto row = [&](size_t part) { return 1 + int(int64_t(rows) * int64_t(part) / parts); };
-      for (int y = row(i); y < row(i + 1); ++y) gradients.add_row(y, sums[i]);
+      const auto row = [&](size_t part) { return int(int64_t(rows) * int64_t(part) / parts); };
+      for (int j = row(i); j < row(i + 1); ++j) gradients.add_row(1 + int(j * step), sums[i]);
     }
   });
   Normal all;

@@ -17,6 +17,7 @@ inline constexpr double kWeakChannelShare = 0.1;
 struct ErrorScale {
   bool display = false;
   int colours = 3;
+  float peak = 1;             // values are limited to 0 .. peak for the signal to noise ratio
   float floor = 0;            // of the colour channels
   std::vector<float> others;  // floors of the channels after them
   // What rounding in the files may have done to a sample; differences within it are none.

@@ -105,6 +105,8 @@ class RowPass {
     const double difference = 2.0 * double(half);
     const double size = std::fabs(difference);
     sums_.absolute_sum += size, sums_.absolute_squares += size * size;
+    const float limited = std::clamp(b, 0.0F, scale_.peak) - std::clamp(a, 0.0F, scale_.peak);
+    sums_.limited_squares += double(limited) * double(limited);
     if (size > sums_.absolute_max) sums_.absolute_max = size, sums_.absolute_at = {at.x, at.y, c};
     const float reference = scale_.display
                                 ? 1.0F / 255.0F
@@ -151,15 +153,19 @@ class RowPass {
   }
 };
 
-void add_light(SkyLight& light, const float* pixel, int colours, double omega, double up,
-               const std::array<double, 9>& basis) {
+void add_light(SkyLight& light, const std::array<double, 3>& colour, int colours, double omega,
+               double up, const std::array<double, kHarmonics>& basis) {
   double mean = 0;
-  for (int c = 0; c < colours; ++c) {
-    if (!std::isfinite(pixel[c])) return;
-    mean += double(pixel[c]) / colours;
-    if (up > 0) light.horizontal[size_t(c)] += omega * up * double(pixel[c]);
+  for (size_t c = 0; c < size_t(colours); ++c) {
+    mean += colour[c] / colours;
+    if (up > 0) light.horizontal[c] += omega * up * colour[c];
   }
-  for (size_t i = 0; i < 9; ++i) light.harmonics[i] += omega * mean * basis[i];
+  for (size_t i = 0; i < kHarmonics; ++i) light.harmonics[i] += omega * mean * basis[i];
+}
+
+void add_light(SkyLight& light, const SkyLight& other) {
+  for (size_t c = 0; c < 3; ++c) light.horizontal[c] += other.horizontal[c];
+  for (size_t i = 0; i < kHarmonics; ++i) light.harmonics[i] += other.harmonics[i];
 }
 
 void add_pixel(PixelSums& sums, const PixelError& e, const float* a, const float* b, int colours,
@@ -218,6 +224,8 @@ class PartPass {
   RowPass pixels_;
   SkyRow looks_;
   std::vector<Block> blocks_;
+  PixelSums run_;
+  uint8_t run_regions_ = 0;
 
   void row(int y) {
     if (sky_ != nullptr) sky_->fill(y, looks_);
@@ -239,34 +247,46 @@ class PartPass {
       block.squares += square, block.count += 1;
       if (e.size > block.worst) block.worst = e.size, block.worst_at = at;
     }
+    end_run();
     if (count > 0) sums_.row.offer(squares / count, worst_at);
   }
 
   void add(int x, const PixelError& e, const float* a, const float* b, PixelPlace at) {
-    const int colours = a_.colour_count();
     double weight = 1;
-    const auto i = size_t(x);
     if (sky_ != nullptr) {
+      const auto i = size_t(x);
       weight = looks_.solid_angle[i];
-      if (weight > 0) add_sky(i, e, a, b, weight, at);
+      if (looks_.regions[i] != run_regions_) end_run();
+      run_regions_ = looks_.regions[i];
+      if (weight > 0) add_sky(i, e, a, b, weight);
     }
-    add_pixel(sums_.all, e, a, b, colours, weight, at);
+    add_pixel(run_, e, a, b, a_.colour_count(), weight, at);
     if (e.size != kInf) sums_.histogram.add(e.size);
   }
 
-  void add_sky(size_t i, const PixelError& e, const float* a, const float* b, double omega,
-               PixelPlace at) {
+  /// Neighbours of the same regions are summed once, not once a region.
+  void end_run() {
+    sums_.all.add(run_);
+    for (unsigned bits = run_regions_; bits != 0; bits &= bits - 1)
+      sums_.regions[size_t(std::countr_zero(bits))].add(run_);
+    run_ = {};
+  }
+
+  void add_sky(size_t i, const PixelError& e, const float* a, const float* b, double omega) {
+    const int colours = a_.colour_count();
+    std::array<double, 3> light{}, change{};
+    bool changed = false;
+    for (int c = 0; c < colours; ++c) {
+      if (!std::isfinite(a[c]) || !std::isfinite(b[c])) return;
+      light[size_t(c)] = double(a[c]), change[size_t(c)] = double(b[c]) - double(a[c]);
+      changed = changed || a[c] != b[c];
+    }
     const glm::dvec3 d(looks_.east[i], looks_.north[i], looks_.up[i]);
     const auto basis = harmonics_at(d);
-    const int colours = a_.colour_count();
-    add_light(sums_.light[0], a, colours, omega, d.z, basis);
-    add_light(sums_.light[1], b, colours, omega, d.z, basis);
-    if (e.size != kInf) {
-      sums_.solid_angle += omega;
-      sums_.weighted_squares += omega * double(e.size) * double(e.size);
-    }
-    for (unsigned bits = looks_.regions[i]; bits != 0; bits &= bits - 1)
-      add_pixel(sums_.regions[size_t(std::countr_zero(bits))], e, a, b, colours, omega, at);
+    add_light(sums_.light, light, colours, omega, d.z, basis);
+    if (changed) add_light(sums_.change, change, colours, omega, d.z, basis);
+    sums_.solid_angle += omega;
+    sums_.weighted_squares += omega * double(e.size) * double(e.size);
   }
 };
 
@@ -300,10 +320,8 @@ void add_part(ErrorSums& all, const ErrorSums& part) {
     all.absolute_max = part.absolute_max, all.absolute_at = part.absolute_at;
   all.samples += part.samples;
   if (part.other_max > all.other_max) all.other_max = part.other_max, all.other_at = part.other_at;
-  for (size_t i = 0; i < 2; ++i) {
-    for (size_t c = 0; c < 3; ++c) all.light[i].horizontal[c] += part.light[i].horizontal[c];
-    for (size_t k = 0; k < 9; ++k) all.light[i].harmonics[k] += part.light[i].harmonics[k];
-  }
+  add_light(all.light, part.light), add_light(all.change, part.change);
+  all.limited_squares += part.limited_squares;
   for (size_t x = 0; x < part.column_squares.size(); ++x)
     all.column_squares[x] += part.column_squares[x];
 }

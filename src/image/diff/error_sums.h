@@ -48,7 +48,7 @@ struct WorstGroup {
   }
 };
 
-/// Light of the sphere for irradiance and harmonics, per picture.
+/// Light of the sphere for irradiance and harmonics.
 struct SkyLight {
   std::array<double, 3> horizontal{};  // sum of L Omega sin(elevation) above the level
   std::array<double, 9> harmonics{};   // of the mean of the colour channels
@@ -63,11 +63,12 @@ struct ErrorSums {
   WorstGroup block, row, column;
   double solid_angle = 0, weighted_squares = 0;
   double absolute_sum = 0, absolute_squares = 0, absolute_max = -1;
+  double limited_squares = 0;  // of values limited to 0 .. ErrorScale::peak
   PixelPlace absolute_at;
   uint64_t samples = 0;   // colour samples that are numbers in both
   double other_max = -1;  // largest error of channels that are no colours
   PixelPlace other_at;
-  std::array<SkyLight, 2> light;  // of a, of b
+  SkyLight light, change;  // of a, and of b less a
   std::vector<double> column_squares;
 };
 

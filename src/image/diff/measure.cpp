@@ -85,29 +85,25 @@ void add_region_measures(const ErrorSums& sums, int colours, MeasureList& list) 
   }
 }
 
-double share_of_norm(const double* a, const double* b, size_t n) {
-  double difference = 0, size = 0;
-  for (size_t i = 0; i < n; ++i) {
-    difference += (b[i] - a[i]) * (b[i] - a[i]);
-    size += std::max(a[i] * a[i], b[i] * b[i]);
-  }
-  return size > 0 ? std::sqrt(difference / size) : 0;
-}
-
 void add_light_measures(const ErrorSums& sums, const SkyView& view, int colours,
                         MeasureList& list) {
-  const auto& [a, b] = sums.light;
+  const SkyLight &light = sums.light, &change = sums.change;
   if (sees_upper_hemisphere(*view.camera)) {
     double worst = 0;
     for (size_t c = 0; c < size_t(colours); ++c) {
-      const double larger = std::max(std::fabs(a.horizontal[c]), std::fabs(b.horizontal[c]));
-      if (larger > 0)
-        worst = std::max(worst, std::fabs(b.horizontal[c] - a.horizontal[c]) / larger);
+      const double a = light.horizontal[c], b = a + change.horizontal[c];
+      const double larger = std::max(std::fabs(a), std::fabs(b));
+      if (larger > 0) worst = std::max(worst, std::fabs(change.horizontal[c]) / larger);
     }
     list.plain("irradiance", worst);
   }
-  if (sees_whole_sphere(view.camera->projection))
-    list.plain("harmonics", share_of_norm(a.harmonics.data(), b.harmonics.data(), 9));
+  if (!sees_whole_sphere(view.camera->projection)) return;
+  double difference = 0, size = 0;
+  for (size_t i = 0; i < light.harmonics.size(); ++i) {
+    const double a = light.harmonics[i], b = a + change.harmonics[i];
+    difference += change.harmonics[i] * change.harmonics[i], size += std::max(a * a, b * b);
+  }
+  list.plain("harmonics", size > 0 ? std::sqrt(difference / size) : 0);
 }
 
 /// CIE 1976 u', v' of mean light; nothing without light.
@@ -135,8 +131,8 @@ void add_chromaticity(const ErrorSums& sums, const glm::dmat3& to_xyz, MeasureLi
     list.plain("chromaticity", worst, place.x >= 0 ? std::optional(place) : std::nullopt);
 }
 
-/// The brightest thousandth of the picture ends below it: the sun's disc does not set the range.
-double peak_of(const Picture& a) {
+/// What a thousandth of the samples exceed: the sun's disc does not set the range.
+double bright_light(const Picture& a) {
   const size_t step = std::max<size_t>(1, a.pixel_count() >> 16) | 1;
   std::vector<float> light;
   for (size_t i = 0; i < a.pixel_count(); i += step)
@@ -147,36 +143,6 @@ double peak_of(const Picture& a) {
   const auto at = light.begin() + std::ptrdiff_t(double(light.size() - 1) * 0.999);
   std::nth_element(light.begin(), at, light.end());
   return std::max(0.0F, *at);
-}
-
-/// Peak signal to noise ratio over values limited to [0, peak].
-double psnr_db(const Picture& a, const Picture& b, double peak) {
-  const auto rows = size_t(a.height);
-  std::vector<double> squares(rows), counts(rows);
-  const auto limit = float(peak);
-  parallel_for_ranges(rows, 16, [&](size_t begin, size_t end) {
-    for (size_t y = begin; y < end; ++y) {
-      const float *pa = a.pixel(0, int(y)), *pb = b.pixel(0, int(y));
-      const auto channels = a.channels.size();
-      for (size_t i = 0; i < size_t(a.width) * channels; ++i) {
-        if (i % channels >= size_t(a.colour_count()) || std::isnan(pa[i]) || std::isnan(pb[i]))
-          continue;
-        const float d = std::clamp(pb[i], 0.0F, limit) - std::clamp(pa[i], 0.0F, limit);
-        squares[y] += double(d) * double(d), counts[y] += 1;
-      }
-    }
-  });
-  double sum = 0, count = 0;
-  for (size_t y = 0; y < rows; ++y) sum += squares[y], count += counts[y];
-  return 10 * std::log10(peak * peak * count / sum);
-}
-
-void add_psnr(const Picture& a, const Picture& b, const CompareOptions& options,
-              MeasureList& list) {
-  const double peak = options.psnr_peak ? *options.psnr_peak : a.display_referred ? 1 : peak_of(a);
-  if (!(peak > 0)) return;
-  list.plain("psnr", psnr_db(a, b, peak));  // infinite, and left out, where nothing differs
-  list.plain("psnr.peak", peak);
 }
 
 void add_displacement(const Picture& a, const Picture& b, const SkyView& view, MeasureList& list) {
@@ -294,7 +260,12 @@ Comparison compare(const Picture& a, const Picture& b, const SkyView& view,
   assert(!view.camera || (view.camera->width == a.width && view.camera->height == a.height));
   Comparison result;
   const int colours = a.colour_count();
-  const ErrorSums sums = sum_errors(a, b, error_scale(a, b), view, result.error);
+  ErrorScale scale = error_scale(a, b);
+  const double peak = options.psnr_peak    ? *options.psnr_peak
+                      : a.display_referred ? 1
+                                           : bright_light(a);
+  scale.peak = float(peak);
+  const ErrorSums sums = sum_errors(a, b, scale, view, result.error);
   result.odd = sums.odd, result.identical = sums.identical;
   result.hash_a = hash_of(a);
   result.hash_b = result.identical ? result.hash_a : hash_of(b);
@@ -315,7 +286,10 @@ Comparison compare(const Picture& a, const Picture& b, const SkyView& view,
   }
   if (colours == 3 && !a.display_referred) add_chromaticity(sums, options.rgb_to_xyz, list);
   if (result.identical) return result;
-  add_psnr(a, b, options, list);
+  if (peak > 0 && sums.samples > 0) {
+    list.plain("psnr", 10 * std::log10(peak * peak * double(sums.samples) / sums.limited_squares));
+    list.plain("psnr.peak", peak);
+  }
   add_displacement(a, b, view, list);
   add_spot(a, b, view, sums, list);
   return result;

@@ -8,6 +8,11 @@ namespace {
 
 constexpr double kZenithDeg = 60, kHorizonDeg = 5, kAureoleDeg = 15, kAntisolarDeg = 30;
 constexpr double kRimPixels = 1.5;
+/// Pixels whose directions are found together, an odd number, and how far their line may bend (as
+/// an angle): a parabola through three is then within half a pixel of the others, which is where
+/// the pixel still is (tested; the most at the edges of a cube's faces).
+constexpr int kStretch = 9;
+constexpr double kBend = 5e-3;
 
 constexpr uint8_t bit(SkyRegion region) { return uint8_t(1U << unsigned(region)); }
 
@@ -76,13 +81,54 @@ std::optional<SkyRegion> chief_region(uint8_t regions) {
 
 SkyRows::SkyRows(const SkyView& view) : view_(view) {
   const Camera& camera = *view_.camera;
-  if (camera.projection != Projection::lat_long) return;
+  if (camera.projection != Projection::lat_long) {
+    find_unit();
+    return;
+  }
   for (int x = 0; x < camera.width; ++x) {
     const auto level = *direction_at(camera, {x + 0.5, 0.5 * camera.height});
     const double length = std::hypot(level.x(), level.y());
     sin_azimuth_.push_back(float(level.x() / length));
     cos_azimuth_.push_back(float(level.y() / length));
   }
+}
+
+/// From the pixel nearest to the middle of the picture that is wholly inside it.
+void SkyRows::find_unit() {
+  const Camera& camera = *view_.camera;
+  for (const double share : {0.5, 0.25, 0.375, 0.0}) {
+    const int x = std::min(camera.width - 1, int(share * camera.width));
+    const int y = std::min(camera.height - 1, int(share * camera.height));
+    const auto d = direction_at(camera, {x + 0.5, y + 0.5});
+    if (!d) continue;
+    unit_ = pixel_solid_angle(camera, x, y).in(sr) / density(d->vec());
+    if (unit_ > 0) return;
+  }
+}
+
+/// Solid angle that a pixel covers at a direction, up to a factor that is the same for all.
+double SkyRows::density(const glm::dvec3& enu) const {
+  const glm::dvec3 d = glm::transpose(view_.camera->camera_to_enu) * enu;
+  switch (view_.camera->projection) {
+    case Projection::perspective:
+      return d.z * d.z * d.z;
+    case Projection::cube: {
+      const double forward = std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)});
+      return forward * forward * forward;
+    }
+    case Projection::fisheye_equidistant: {
+      const double s = std::hypot(d.x, d.y), theta = std::atan2(s, d.z);
+      return theta > 0 ? s / theta : 1;
+    }
+    case Projection::fisheye_stereographic:
+      return 0.25 * (1 + d.z) * (1 + d.z);
+    case Projection::lat_long:
+    case Projection::fisheye_equisolid:
+    case Projection::octahedral:
+    case Projection::mirror_ball:
+      break;
+  }
+  return 1;  // equal areas
 }
 
 void SkyRows::fill(int y, SkyRow& row) const {
@@ -93,15 +139,39 @@ void SkyRows::fill(int y, SkyRow& row) const {
   if (camera.projection == Projection::lat_long) {
     fill_lat_long(y, row);
   } else {
-    for (int x = 0; x < camera.width; ++x) {
-      const auto d = direction_at(camera, {x + 0.5, y + 0.5});
-      if (!d) continue;
-      const auto i = size_t(x);
-      row.east[i] = float(d->x()), row.north[i] = float(d->y()), row.up[i] = float(d->z());
-      row.solid_angle[i] = float(pixel_solid_angle(camera, x, y).in(sr));
-    }
+    for (int x = 0; x < camera.width; x += kStretch)
+      fill_stretch(y, x, std::min(x + kStretch, camera.width), row);
   }
   set_regions(row);
+}
+
+void SkyRows::set_pixel(size_t x, const glm::dvec3& d, SkyRow& row) const {
+  row.east[x] = float(d.x), row.north[x] = float(d.y), row.up[x] = float(d.z);
+  row.solid_angle[x] = float(unit_ * density(d));
+}
+
+/// Columns [begin, end): by a parabola through three of them where the picture is smooth, else (at
+/// the edges of a cube's faces and of circles) one by one.
+void SkyRows::fill_stretch(int y, int begin, int end, SkyRow& row) const {
+  const Camera& camera = *view_.camera;
+  const auto at = [&](int x) { return direction_at(camera, {x + 0.5, y + 0.5}); };
+  const int last = end - 1, middle = (begin + last) / 2;
+  const auto first = at(begin), centre = at(middle), final = at(last);
+  const double half = middle - begin;
+  const bool even = last - middle == middle - begin && half > 0;
+  if (even && first && centre && final) {
+    const glm::dvec3 slope = 0.5 * (final->vec() - first->vec());
+    const glm::dvec3 bend = 0.5 * (final->vec() + first->vec()) - centre->vec();
+    if (glm::dot(bend, bend) < kBend * kBend) {
+      for (int x = begin; x < end; ++x) {
+        const double s = (x - middle) / half;
+        set_pixel(size_t(x), centre->vec() + s * (slope + s * bend), row);
+      }
+      return;
+    }
+  }
+  for (int x = begin; x < end; ++x)
+    if (const auto d = at(x)) set_pixel(size_t(x), d->vec(), row);
 }
 
 void SkyRows::fill_lat_long(int y, SkyRow& row) const {

@@ -42,7 +42,10 @@ struct SkyRow {
   std::vector<uint8_t> regions;    // bits by SkyRegion
 };
 
-/// Rows of a picture whose camera is known.
+/// Rows of a picture whose camera is known. Directions are those of pixel centres within half a
+/// pixel, solid angles those of pixel_solid_angle within 6 % (of pixels of a degree and less:
+/// 1e-3): one is computed, the others follow from the projection's density; pixels cut by the rim
+/// of a circle count whole.
 class SkyRows {
  public:
   /// `view.camera` is set.
@@ -53,6 +56,11 @@ class SkyRows {
  private:
   SkyView view_;
   std::vector<float> sin_azimuth_, cos_azimuth_;  // of columns of a lat-long map
+  double unit_ = 0;  // sr of a pixel where the projection's density is 1
+  [[nodiscard]] double density(const glm::dvec3& enu) const;
+  void find_unit();
+  void set_pixel(size_t x, const glm::dvec3& direction, SkyRow& row) const;
+  void fill_stretch(int y, int begin, int end, SkyRow& row) const;
   void fill_lat_long(int y, SkyRow& row) const;
   void set_regions(SkyRow& row) const;
 };
