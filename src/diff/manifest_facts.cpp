@@ -43,9 +43,17 @@ json named(const json& list, const std::string& name) {
   return {};
 }
 
-/// Whether a path can come from "{camera}/f.{time}.exr": its fixed parts stand in it in this order,
+/// Whether a path can come from "{camera}/f.####.exr": its fixed parts stand in it in this order,
 /// the first at the beginning and the last at the end.
-bool fits_template(std::string_view path, std::string_view shape) {
+bool fits_template(std::string_view path, const std::string& written) {
+  std::string with_tokens;
+  for (const char c : written) {
+    if (c != '#')
+      with_tokens += c;
+    else if (!with_tokens.ends_with("{#}"))  // a frame's number of several digits
+      with_tokens += "{#}";
+  }
+  std::string_view shape = with_tokens;
   const size_t token = shape.find('{');
   if (token == shape.npos) return path == shape;
   if (!path.starts_with(shape.substr(0, token))) return false;

@@ -118,10 +118,10 @@ class ImageIo {
   /// All channels of one part, counted from 0; what a file without that part says is an error.
   /// Which reader is asked follows from the first bytes of the file, and from its name only where
   /// those tell nothing. Integers are scaled to 0..1 (of OpenEXR: kept), colours are not multiplied
-  /// by alpha, palettes and CMYK become RGB, luminance with subsampled chroma (OpenEXR's Y RY BY)
-  /// becomes RGB, pictures lie as their Orientation says. OpenEXR: the display window, with 0 where
-  /// the data window ends before it. Errors: missing_input with the reason: not a file, no image,
-  /// cut short or corrupt, deep or three-dimensional pixels, beyond `limits`.
+  /// by alpha, palettes and CMYK become RGB as OpenImageIO converts them, pictures lie as their
+  /// Orientation says. OpenEXR: the display window, with 0 where the data window ends before it.
+  /// Errors: missing_input with the reason: not a file, no image, cut short or corrupt, deep or
+  /// three-dimensional pixels, subsampled channels (OpenEXR's Y RY BY), beyond `limits`.
   virtual Result<ReadImage> read(const std::string& path, int part,
                                  const ReadLimits& limits) const = 0;
   virtual Result<std::unique_ptr<DisplayTransform>> display(

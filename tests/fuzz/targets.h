@@ -31,6 +31,17 @@ void time_expression(std::string_view bytes);
 /// rows written by csv_line are read back.
 void batch_csv(std::string_view bytes);
 
+/// An image file of any format. Laws: a picture within the limits that were set and as large as it
+/// says, or an error with words; never a crash, whatever the libraries behind do.
+void image(std::string_view bytes);
+
+/// A manifest of skylapse. Laws: a refusal is printable; every file it lists stays below its folder
+/// and has an entry that is JSON.
+void manifest(std::string_view bytes);
+
+/// A golden.json. Laws: as for a manifest; every name has variants of different renderers.
+void golden(std::string_view bytes);
+
 struct Target {
   std::string_view name;  // also of its folder of the corpus
   void (*run)(std::string_view bytes);

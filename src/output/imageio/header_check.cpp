@@ -140,8 +140,8 @@ std::string png_problem(FileBytes& file, const ReadLimits& limits) {
 
 /// SMPTE 268M: places in the header of what tells the size of the file and of its first element.
 /// There must be at least the bits of the samples, unless they are run lengths.
-std::string dpx_problem(FileBytes& file) {
-  constexpr uint64_t kFileSize = 16, kWidth = 772, kHeight = 776, kElement = 780;
+std::string dpx_problem(FileBytes& file, const ReadLimits& limits) {
+  constexpr uint64_t kFileSize = 16, kUserSize = 32, kWidth = 772, kHeight = 776, kElement = 780;
   constexpr uint32_t kNotSaid = 0xFFFFFFFF;
   const bool swapped = file.little(0) == 0x53445058U;  // "XPDS"
   const auto word = [&](uint64_t at) { return swapped ? file.little(at) : file.big(at); };
@@ -151,6 +151,10 @@ std::string dpx_problem(FileBytes& file) {
   const auto begin = word(kElement + 28);
   if (!total || !width || !height || !kind || !coding || !begin) return kCut;
   if (*total != kNotSaid && *total > file.size()) return kCut;
+  const auto user = word(kUserSize);
+  if (user && *user != kNotSaid && *user > file.size()) return kCut;
+  if (double(*width) * double(*height) > double(limits.pixels))
+    return too_large(*width, *height, limits);
   const unsigned descriptor = (*kind)[0], bits = (*kind)[3];
   const unsigned samples = descriptor == 50 ? 3 : descriptor == 51 || descriptor == 52 ? 4 : 1;
   const double needed = double(*width) * double(*height) * samples * bits / 8;
@@ -166,7 +170,7 @@ std::string header_problem(const std::string& path, const std::string& format,
   FileBytes file(path);
   if (format == "openexr") return exr_problem(file, limits);
   if (format == "png") return png_problem(file, limits);
-  if (format == "dpx") return dpx_problem(file);
+  if (format == "dpx") return dpx_problem(file, limits);
   return {};
 }
 

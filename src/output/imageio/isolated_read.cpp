@@ -19,7 +19,7 @@
 namespace skylapse::output::imageio {
 namespace {
 
-constexpr unsigned kSeconds = 30;
+constexpr unsigned kSeconds = 10;
 
 /// Values through a pipe, in the order in which they are given; false once anything failed.
 class PipeEnd {

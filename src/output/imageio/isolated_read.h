@@ -12,7 +12,7 @@ namespace skylapse::output::imageio {
 /// library is then taken over into it.
 std::shared_mutex& library_in_use();
 
-/// Calls `read` in a child process with bounded memory and 30 s of processor time, and hands its
+/// Calls `read` in a child process with bounded memory and 10 s of processor time, and hands its
 /// result over. Readers of seldom formats crash on damaged files (OpenImageIO 2.4 on DPX, for one).
 /// Errors: those of `read`; missing_input where the child crashed or went beyond its bounds.
 Result<ReadImage> read_in_child(const std::string& path, const ReadLimits& limits,
