@@ -273,21 +273,25 @@ std::string result_text(const diff::DiffResult& result, bool all) {
                      result.seconds);
 }
 
+/// Writes all reports that were asked for, whatever happens to one of them; the first error.
 Status write_reports(const DiffArguments& a, const diff::DiffResult& result) {
+  Status all = Done{};
+  const auto note_error = [&](Status written) {
+    if (all.ok() && !written.ok()) all = std::move(written);
+  };
   if (a.json == "-")
     print(diff::json_report(result));
   else if (!a.json.empty())
-    if (const Status written = diff::write_report(a.json, diff::json_report(result)); !written)
-      return written;
-  if (!a.junit.empty())
-    if (const Status written = diff::write_report(a.junit, diff::junit_report(result)); !written)
-      return written;
-  if (!a.heat_map.empty() && !result.pairs.empty()) {
-    const auto& worst = result.pairs[diff::worst_first(result.pairs).front()];
-    if (const Status written = diff::write_heat_map(worst, a.heat_map); !written) return written;
+    note_error(diff::write_report(a.json, diff::json_report(result)));
+  if (!a.junit.empty()) note_error(diff::write_report(a.junit, diff::junit_report(result)));
+  if (!a.html.empty()) note_error(diff::write_page(result, a.html));
+  if (a.heat_map.empty()) return all;
+  for (const size_t i : diff::worst_first(result.pairs)) {
+    if (result.pairs[i].error) continue;  // there is nothing to draw
+    note_error(diff::write_heat_map(result.pairs[i], a.heat_map));
+    break;
   }
-  if (!a.html.empty()) return diff::write_page(result, a.html);
-  return Done{};
+  return all;
 }
 
 ExitCode exit_code(const diff::DiffResult& result) {
@@ -301,13 +305,6 @@ ExitCode exit_code(const diff::DiffResult& result) {
       break;
   }
   return ExitCode::differs;
-}
-
-/// Nothing has been accepted yet: the first goldens have nothing to be held against.
-bool is_first_acceptance(const DiffArguments& a) {
-  std::error_code ec;
-  return a.update && (!std::filesystem::exists(a.golden_folder, ec) ||
-                      std::filesystem::is_empty(a.golden_folder, ec));
 }
 
 /// The first acceptance has nothing to compare with.
@@ -336,8 +333,7 @@ ExitCode run_diff_command(const DiffArguments& a, const ConsoleOptions& console)
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
     if (total > 16) progress->show({done, total, 0, taken.count(), "comparing"});
   };
-  const auto result = is_first_acceptance(a)    ? Result<diff::DiffResult>(diff::DiffResult{})
-                      : a.self_check            ? diff::run_self_check(*options)
+  const auto result = a.self_check              ? diff::run_self_check(*options)
                       : a.golden_folder.empty() ? diff::run_diff(*options)
                                                 : diff::run_golden_diff(*options);
   progress.reset();

@@ -105,6 +105,7 @@ class Page {
     });
     for (size_t i = 0; i < pictures_.size(); ++i)
       if (is_large(result.pairs[order_[i]])) pack(i);
+    keep_within(options.max_bytes);
   }
 
   [[nodiscard]] std::string html() {
@@ -125,13 +126,24 @@ class Page {
   }
 
  private:
+  static PackedPictures with_note(const std::string& note) {
+    PackedPictures none;
+    none.facts = {{"note", one_line(note)}};
+    return none;
+  }
+
+  /// Noise does not pack: a page of it could be larger than a browser likes.
+  void keep_within(size_t bytes) {
+    size_t sum = 0;
+    for (PackedPictures& pictures : pictures_) {
+      for (const auto& [name, text] : pictures.elements) sum += text.size();
+      if (sum > bytes && !pictures.elements.empty())
+        pictures = with_note("those of worse pairs fill this page");
+    }
+  }
+
   static PackedPictures pictures_of(const PairResult& pair, const EvidenceSource& evidence,
                                     int max_width) {
-    const auto with_note = [](const std::string& note) {
-      PackedPictures none;
-      none.facts = {{"note", one_line(note)}};
-      return none;
-    };
     if (pair.error) return with_note(pair.error->message);
     const auto read = evidence(pair);
     if (!read) return with_note(read.error().message);

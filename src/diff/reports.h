@@ -22,6 +22,8 @@ Status write_heat_map(const PairResult& pair, const std::string& path);
 struct PageOptions {
   int pictures = 24;     // of the worst pairs; the others are in the table alone
   int max_width = 1024;  // pictures wider than that are shrunk
+  size_t max_bytes =
+      48'000'000;  // of all pictures; what is beyond is left out, the best pairs first
 };
 
 /// FOLDER/index.html: one file that needs no network. Errors: write_failed.

@@ -23,6 +23,16 @@ std::string displacement_text(const std::vector<const MeasuredValue*>& moved) {
   return text;
 }
 
+/// Where the pair is worst, for measures of the whole picture, which are nowhere.
+std::string worst_place_text(const PairResult& pair) {
+  const MeasuredValue* worst = nullptr;
+  for (const MeasuredValue& m : pair.measures)
+    if (m.place && m.verdict != Verdict::same &&
+        (worst == nullptr || limit_ratio(m) > limit_ratio(*worst)))
+      worst = &m;
+  return worst != nullptr ? ", worst " + place_text(*worst->place) : "";
+}
+
 /// "relative.max 94 % (limit 1 %) at (180, 40)".
 std::string measure_text(const MeasuredValue& m) {
   const double limit =
@@ -52,7 +62,7 @@ std::string summary_text(const PairResult& pair) {
   if (!moved.empty()) parts.push_back(displacement_text(moved));
   const bool told = !moved.empty() && measure && measure->name == moved.front()->name;
   if (measure && measure->verdict != Verdict::same && !told)
-    parts.push_back(measure_text(*measure));
+    parts.push_back(measure_text(*measure) + (measure->place ? "" : worst_place_text(pair)));
   if (pair.verdict == Verdict::same && parts.empty()) {
     bool zero = !pair.measures.empty();
     for (const MeasuredValue& m : pair.measures) zero = zero && (m.value == 0 || m.below);

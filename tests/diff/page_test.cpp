@@ -162,6 +162,16 @@ TEST(DiffPage, HoldsThePixelsOfTheWorstPairsAlone) {
   EXPECT_THAT(page, Not(HasSubstr("id=\"a4\">")));
 }
 
+TEST(DiffPage, LeavesOutThePicturesThatWouldMakeItTooLarge) {
+  const Sample sample;
+  PageOptions options;
+  options.max_bytes = 80'000;
+  const std::string page = page_of(sample.result(), sample.evidence(), options);
+  EXPECT_THAT(page, HasSubstr("id=\"a1\">"));
+  EXPECT_THAT(page, HasSubstr("those of worse pairs fill this page"));
+  EXPECT_LT(page.size(), 80'000 + page_of(sample.result(), nothing, options).size());
+}
+
 TEST(DiffPage, NeedsNoNetworkAndHoldsNamesAsText) {
   const Sample sample;
   const std::string page = page_of(sample.result(), sample.evidence(), {});

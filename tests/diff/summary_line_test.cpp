@@ -45,6 +45,14 @@ TEST(SummaryLine, TheMeasureFarthestBeyondItsLimitIsNamed) {
   EXPECT_THAT(summary_line(pair), HasSubstr("relative.rms 4 % (limit 0.2 %)"));
 }
 
+TEST(SummaryLine, MeasuresOfTheWholePictureBorrowAPlace) {
+  PairResult pair = sample_pair("f.exr");
+  fail_measure(pair, "relative.rms", 0.4);
+  fail_measure(pair, "relative.max", 0.5, place_at(64, 32, 202.7, 78.6, "zenith"));
+  EXPECT_THAT(summary_line(pair),
+              HasSubstr("relative.rms 40 % (limit 0.2 %), worst at (64, 32), zenith, az 202.7"));
+}
+
 TEST(SummaryLine, NothingInAPairCanSteerATerminalOrBreakTheLine) {
   PairResult pair = sample_pair("a\x1b[2J\nb\xff.exr");
   pair.findings.push_back({Verdict::different, "size", "127\trows\r\n", std::nullopt});

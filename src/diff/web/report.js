@@ -31,8 +31,12 @@ const plural = (n, one, many) => n.toLocaleString("en") + " " + (n === 1 ? one :
   const profiles = [...new Set(data.pairs.map(p => p.p))].filter(p => p);
   byId("lead").append(make("span", {}, make("b", {}, "A"), " " + data.a), make("span", {}, make("b", {}, "B"), " " + data.b),
     ...(profiles.length ? [make("span", {}, make("b", {}, profiles.length === 1 ? "profile" : "profiles"), " " + profiles.slice(0, 5).join(", "))] : []));
-  byId("whole").append(...data.findings.slice(0, 200).map(f => make("li", {class: "v" + f[0]}, icon(f[0]), make("b", {}, f[1]), " " + f[2])));
-  if (data.findings.length > 200) byId("whole").append(make("li", {}, `and ${(data.findings.length - 200).toLocaleString("en")} more`));
+  const told = f => make("li", {class: "v" + f[0]}, icon(f[0]), make("b", {}, f[1]), " " + f[2]), first = 3, most = 500;
+  byId("whole").append(...data.findings.slice(0, first).map(told));
+  if (data.findings.length > first)
+    byId("whole-more").append(make("summary", {}, `${(data.findings.length - first).toLocaleString("en")} more findings of the whole`),
+      make("ul", {}, ...data.findings.slice(first, most).map(told), data.findings.length > most ? make("li", {}, `and ${(data.findings.length - most).toLocaleString("en")} more`) : ""));
+  byId("whole-more").hidden = data.findings.length <= first;
   byId("foot").textContent = `${data.program}; compared in ${digits(num(data.seconds), 3)} s. The worst ${data.pairs.filter(p => p.pic && p.pic.note === undefined).length.toLocaleString("en")} pairs carry their pixels.`;
   const limits = data.kinds.filter(k => k[2] !== null || k[3] !== null);
   byId("limit-table").tBodies[0].append(...limits.map(([name, unit, warn, fail, below]) => make("tr", {}, make("th", {scope: "row"}, name),
@@ -125,7 +129,7 @@ async function choose(i, goThere) {
   const none = byId("no-pictures"), held = p.pic && p.pic.note === undefined;
   none.hidden = Boolean(held), byId("viewer").hidden = !held;
   none.replaceChildren(...(held ? [] : p.v === 3 || p.e ? ["A file of this pair cannot be read: there are no pictures to show."]
-    : p.pic ? ["No pictures: " + p.pic.note] : ["Only the worst pairs carry their pixels in this page. For this one: ", make("code", {}, `skylapse diff ${quoted(p.a[0])} ${quoted(p.b[0])} --html DIR`)]));
+    : p.pic ? ["No pictures: " + p.pic.note + "."] : ["Only the worst pairs carry their pixels in this page. For this one: ", make("code", {}, `skylapse diff ${quoted(p.a[0])} ${quoted(p.b[0])} --html DIR`)]));
   if (goThere && innerWidth < 1100) byId("detail").scrollIntoView(), byId("detail").focus({preventScroll: true});
   if (!held) return void (view.number = -1, view.pictures = null);
   try {

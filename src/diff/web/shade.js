@@ -32,7 +32,7 @@ function shaded(picture, display, channel, stops, highlight) {
   }
   return image;
 }
-// The middle of the light at 40 % of white, and nine tenths of the picture below white.
+// The middle of the light at 30 % of white, and all but the brightest thirtieth of the picture below white.
 function autoStops(picture, display) {
   if (display) return 0;
   const colours = picture.planes.slice(0, picture.colours), values = [], step = Math.max(1, Math.floor(picture.w * picture.h / 20000));
@@ -43,7 +43,7 @@ function autoStops(picture, display) {
   if (!values.length) return 0;
   values.sort((x, y) => x - y);
   const at = share => values[Math.floor(share * (values.length - 1))];
-  return Math.round(4 * Math.min(Math.log2(0.4 / at(0.5)), Math.log2(1 / at(0.9)))) / 4;
+  return Math.round(4 * Math.min(Math.log2(0.3 / at(0.5)), Math.log2(1 / at(0.97)))) / 4;
 }
 // False colours: blue where B is darker, orange where it is brighter, black where they agree.
 const kCold = [[0, 0, 0], [12, 56, 120], [58, 140, 222], [214, 238, 255]], kWarm = [[0, 0, 0], [120, 50, 6], [236, 138, 40], [255, 240, 208]];
