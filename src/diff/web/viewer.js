@@ -113,8 +113,9 @@ function drawLayer(panel, name, left = panel.x, right = panel.x + panel.w) {
 function drawLabel(panel, text, right) {
   pen.font = "12px system-ui, sans-serif", pen.textBaseline = "middle", pen.textAlign = "left";
   const width = pen.measureText(text).width + 12, x = right ? panel.x + panel.w - width - 6 : panel.x + 6;
-  pen.fillStyle = "rgba(0,0,0,.62)", pen.fillRect(x, panel.y + 6, width, 20);
-  pen.fillStyle = "#fff", pen.fillText(text, x + 6, panel.y + 16);
+  const y = panel.y + panel.h - 26;  // below: zeniths are above
+  pen.fillStyle = "rgba(0,0,0,.62)", pen.fillRect(x, y, width, 20);
+  pen.fillStyle = "#fff", pen.fillText(text, x + 6, y + 10);
 }
 // Two rings, dark in light: to be seen on any sky.
 function ring(x, y, radius, colour, dash = []) {
