@@ -191,6 +191,7 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"harmonics", "%", "difference of the light of the sphere in nine spherical harmonics"},
       {"chromaticity", "", "largest distance of mean colours in CIE 1976 u', v'"},
       {"negative.share", "%", "difference of the shares of negative samples"},
+      {"exposure.shift_ev", "EV", "the whole picture brighter (positive) or darker"},
       {"position.shift_px", "px", "the whole picture moved"},
       {"position.right_px", "px", "of that, to the right"},
       {"position.down_px", "px", "of that, down"},

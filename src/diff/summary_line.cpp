@@ -60,6 +60,10 @@ std::string summary_text(const PairResult& pair) {
   std::vector<std::string> parts;
   if (!structural.empty()) parts.push_back(structural_text(structural));
   if (!moved.empty()) parts.push_back(displacement_text(moved));
+  for (const MeasuredValue& m : pair.measures)
+    if (m.name == "exposure.shift_ev" && pair.verdict != Verdict::same)
+      parts.push_back(value_text(std::fabs(m.value), m.unit) +
+                      (m.value > 0 ? " brighter" : " darker"));
   const bool told = !moved.empty() && measure && measure->name == moved.front()->name;
   if (measure && measure->verdict != Verdict::same && !told)
     parts.push_back(measure_text(*measure) + (measure->place ? "" : worst_place_text(pair)));

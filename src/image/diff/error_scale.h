@@ -8,9 +8,9 @@ namespace skylapse::image {
 
 /// Light that no exposure of a picture shows beside the rest, as a share of its median.
 inline constexpr double kDarkShare = 1e-4;
-/// The same where a picture has no light at all: with 1.0 = 683 cd/m^2 a thousandth of what a
-/// dark-adapted eye sees.
-inline constexpr double kDarkest = 1e-12;
+/// The same where that is nothing: far above subnormal numbers, which some processors take for
+/// zero, and far below any unit of light.
+inline constexpr double kDarkest = 1e-34;
 /// A channel counts with at least this share of the pixel's strongest channel.
 inline constexpr double kWeakChannelShare = 0.1;
 

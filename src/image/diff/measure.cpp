@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "core/parallel.h"
 #include "image/diff/displacement.h"
@@ -63,6 +64,21 @@ void add_error_measures(const ErrorSums& sums, int colours, MeasureList& list) {
     list.scaled("weighted_rms", std::sqrt(sums.weighted_squares / sums.solid_angle));
 }
 
+/// A gain of all channels, where most of the difference is one.
+void add_exposure(const ErrorSums& sums, int colours, MeasureList& list) {
+  double mean = 0, least = HUGE_VAL;
+  for (int c = 0; c < colours; ++c) {
+    const double of_channel = sums.all.signed_sum[size_t(c)] / sums.all.count;
+    mean += of_channel / colours, least = std::min(least, std::fabs(of_channel));
+  }
+  const double square = sums.all.squares / sums.all.count;
+  if (std::fabs(mean) < kEffect || least < 0.5 * std::fabs(mean) || mean * mean < 0.5 * square)
+    return;
+  // An error is a share of the larger of the two.
+  list.plain("exposure.shift_ev", mean > 0 ? -std::log2(1 - std::min(mean, 0.999))
+                                           : std::log2(1 + std::max(mean, -0.999)));
+}
+
 void add_absolute_measures(const ErrorSums& sums, double unit, MeasureList& list) {
   if (sums.samples == 0) return;
   const auto n = double(sums.samples);
@@ -85,20 +101,22 @@ void add_region_measures(const ErrorSums& sums, int colours, MeasureList& list) 
   }
 }
 
-void add_light_measures(const ErrorSums& sums, const SkyView& view, int colours,
+/// `floor`: light that is none (ErrorScale), from every direction.
+void add_light_measures(const ErrorSums& sums, const SkyView& view, int colours, double floor,
                         MeasureList& list) {
+  constexpr double kPi = std::numbers::pi;
   const SkyLight &light = sums.light, &change = sums.change;
   if (sees_upper_hemisphere(*view.camera)) {
     double worst = 0;
     for (size_t c = 0; c < size_t(colours); ++c) {
       const double a = light.horizontal[c], b = a + change.horizontal[c];
-      const double larger = std::max(std::fabs(a), std::fabs(b));
+      const double larger = std::max({std::fabs(a), std::fabs(b), kPi * floor});
       if (larger > 0) worst = std::max(worst, std::fabs(change.horizontal[c]) / larger);
     }
     list.plain("irradiance", worst);
   }
   if (!sees_whole_sphere(view.camera->projection)) return;
-  double difference = 0, size = 0;
+  double difference = 0, size = 4 * kPi * floor * floor;
   for (size_t i = 0; i < light.harmonics.size(); ++i) {
     const double a = light.harmonics[i], b = a + change.harmonics[i];
     difference += change.harmonics[i] * change.harmonics[i], size += std::max(a * a, b * b);
@@ -185,7 +203,7 @@ void add_spot(const Picture& a, const Picture& b, const SkyView& view, const Err
   const PixelPlace place{int(sa->x), int(sa->y), -1};
   const auto sb = find_spot(b, search->x, search->y, search->reach);
   if (!sb) return list.plain("sun.flux", 1, place);
-  list.plain("sun.flux", std::fabs(sb->light / sa->light - 1), place);
+  list.plain("sun.flux", std::fabs(sb->light - sa->light) / std::max(sa->light, sb->light), place);
   list.plain("sun.shift_px", std::hypot(sb->x - sa->x, sb->y - sa->y), place);
   const auto from = direction_at(*view.camera, {sa->x, sa->y});
   const auto to = direction_at(*view.camera, {sb->x, sb->y});
@@ -282,10 +300,11 @@ Comparison compare(const Picture& a, const Picture& b, const SkyView& view,
                                                        double(a.samples.size()));
   if (view.camera) {
     add_region_measures(sums, colours, list);
-    add_light_measures(sums, view, colours, list);
+    add_light_measures(sums, view, colours, double(scale.floor), list);
   }
   if (colours == 3 && !a.display_referred) add_chromaticity(sums, options.rgb_to_xyz, list);
   if (result.identical) return result;
+  if (!a.display_referred && sums.all.count > 0) add_exposure(sums, colours, list);
   if (peak > 0 && sums.samples > 0) {
     list.plain("psnr", 10 * std::log10(peak * peak * double(sums.samples) / sums.limited_squares));
     list.plain("psnr.peak", peak);

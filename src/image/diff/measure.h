@@ -4,7 +4,7 @@
 // Error of a sample. Scene-linear pictures: the difference as a share of the light,
 //   e = (b - a) / max(|a|, |b|, 0.1 m, f),
 // m the strongest colour channel of the pixel in either picture (a faint red beside a strong blue
-// does not count as much as the blue), f 1e-4 of the median of the picture's positive light (1e-12
+// does not count as much as the blue), f 1e-4 of the median of the picture's positive light (1e-34
 // if there is none): light that no exposure of the picture shows. In [-2, 2], symmetric, defined
 // for zeros. Display pictures: the difference in 8-bit code values, 255 (b - a).
 #include <cstdint>

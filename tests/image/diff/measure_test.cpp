@@ -87,10 +87,12 @@ TEST(Compare, AGainIsTheErrorOfEveryMeasure) {
         "relative.region.horizon.rms", "irradiance", "harmonics"})
     EXPECT_NEAR(value(c, name), e, 2e-6) << name;
   EXPECT_NEAR(value(c, "relative.p50"), e, 0.023 * e);
-  EXPECT_NEAR(value(c, "sun.flux"), gain, 1e-5);
+  EXPECT_NEAR(value(c, "sun.flux"), e, 1e-5);
   EXPECT_LT(value(c, "sun.shift_px"), 1e-3);
   EXPECT_LT(value(c, "chromaticity"), 1e-6);
   EXPECT_TRUE(std::isnan(value(c, "position.shift_px"))) << "a gain is no move";
+  EXPECT_NEAR(value(c, "exposure.shift_ev"), std::log2(1 + gain), 1e-5);
+  EXPECT_NEAR(value(compare(b, a, {}), "exposure.shift_ev"), -std::log2(1 + gain), 1e-5);
 }
 
 TEST(Compare, IsSymmetric) {
@@ -193,9 +195,24 @@ TEST(Compare, BlackZerosAndDenormalsAreTheSameDark) {
   const Picture minus = picture_of(32, 16, [](int, int) { return glm::vec3(-0.0F); });
   const Picture denormal = picture_of(32, 16, [](int, int) { return glm::vec3(1e-39F); });
   EXPECT_TRUE(compare(black, minus, {}).identical);
-  EXPECT_LT(value(compare(black, denormal, {}), "relative.max"), 1e-20);
+  EXPECT_LT(value(compare(black, denormal, {}), "relative.max"), 1e-4);
+  for (const Measure& m : compare(black, denormal, map_view(black, 20.5, 5.5)).measures)
+    EXPECT_LT(m.value, 1e-4) << m.name;
   const Picture lit = picture_of(32, 16, [](int, int) { return glm::vec3(1e-6F); });
   EXPECT_EQ(value(compare(black, lit, {}), "relative.max"), 1) << "light where there was none";
+}
+
+TEST(Compare, UnitsDoNotMatter) {
+  const Picture a = sky();
+  const auto scaled = [&](float unit, float gain) {
+    return changed(a, [&](float* p, int, int) {
+      for (int c = 0; c < 3; ++c) p[c] *= unit * gain;
+    });
+  };
+  for (const float unit : {1e-20F, 1e-6F, 1e6F, 1e30F}) {
+    const Comparison c = compare(scaled(unit, 1), scaled(unit, 1.02F), {});
+    EXPECT_NEAR(value(c, "relative.rms"), 0.02 / 1.02, 1e-5) << unit;
+  }
 }
 
 TEST(Compare, AMissingStarIsSeenOnABlackSky) {
