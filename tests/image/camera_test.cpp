@@ -279,5 +279,18 @@ TEST(HorizonCoverage, GoesFromNoneToAllOverOnePixel) {
   EXPECT_EQ(horizon_coverage(-1 * deg, {}), 0);
 }
 
+TEST(LookOf, IsTheInverseOfLookAtPolesIncluded) {
+  for (const double azimuth : {0.0, 90.0, 200.0, 359.9})
+    for (const double elevation : {-90.0, -89.9999, -20.0, 0.0, 45.0, 89.9999, 90.0})
+      for (const double roll : {-170.0, 0.0, 30.0, 180.0}) {
+        const glm::dmat3 axes = look_at(azimuth * deg, elevation * deg, roll * deg);
+        const Look look = look_of(axes);
+        const glm::dmat3 again = look_at(look.azimuth, look.elevation, look.roll);
+        for (int column = 0; column < 3; ++column)
+          EXPECT_LT(glm::length(axes[column] - again[column]), 1e-9)
+              << azimuth << " " << elevation << " " << roll;
+      }
+}
+
 }  // namespace
 }  // namespace skylapse::image

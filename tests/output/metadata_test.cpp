@@ -142,5 +142,19 @@ TEST(FrameAttributes, AMapSaysHowItLies) {
   EXPECT_EQ(get<double>(all, "skylapse:heading"), 0.0) << "north is a heading too";
 }
 
+TEST(FrameAttributes, SayHowTheCameraStood) {
+  FrameMetadata f = solstice();
+  f.projection = "fisheye-equisolid";
+  f.look = image::Look{200 * deg, -33 * deg, 17 * deg};
+  f.field_of_view = 180 * deg;
+  const auto all = frame_attributes(f);
+  EXPECT_NEAR(get<double>(all, "skylapse:lookAzimuth"), 200, 1e-12);
+  EXPECT_NEAR(get<double>(all, "skylapse:lookElevation"), -33, 1e-12);
+  EXPECT_NEAR(get<double>(all, "skylapse:roll"), 17, 1e-12);
+  EXPECT_NEAR(get<double>(all, "skylapse:fieldOfView"), 180, 1e-12);
+  EXPECT_EQ(find(all, "skylapse:cubeLayout"), nullptr);
+  EXPECT_EQ(find(frame_attributes(solstice()), "skylapse:roll"), nullptr);
+}
+
 }  // namespace
 }  // namespace skylapse::output
