@@ -108,31 +108,45 @@ double thumbnail_distance(const std::vector<float>& a, const std::vector<float>&
   return std::sqrt(squares / double(a.size()));
 }
 
+namespace {
+
+/// Flicker of every frame but the first and last, told of those that stand out: a frame that is off
+/// makes its neighbours look off by half as much.
+void judge_flicker(const std::vector<TracedFrame>& frames, const std::vector<bool>& out_of_place,
+                   const Limits& limits, std::vector<Finding>& findings) {
+  std::vector<Flicker> flicker(frames.size());
+  for (size_t i = 1; i + 1 < frames.size(); ++i)
+    flicker[i] = flicker_of(frames[i - 1].trace, frames[i].trace, frames[i + 1].trace);
+  for (size_t i = 1; i + 1 < frames.size(); ++i) {
+    if (out_of_place[i - 1] || out_of_place[i] || out_of_place[i + 1]) continue;
+    const double beside = std::max(std::fabs(flicker[i - 1].size), std::fabs(flicker[i + 1].size));
+    if (std::fabs(flicker[i].size) >= 0.75 * beside)
+      add_flicker(frames[i], flicker[i], limits, findings);
+  }
+}
+
+}  // namespace
+
 std::vector<Finding> judge_sequence(const std::vector<TracedFrame>& all, const Limits& limits) {
   std::vector<TracedFrame> frames;
   for (const TracedFrame& frame : all)
     if (frame.trace.valid) frames.push_back(frame);
   std::vector<Finding> findings;
+  std::vector<bool> out_of_place(frames.size(), false);
+  const auto add = [&](size_t frame, const std::string& check, const std::string& message) {
+    out_of_place[frame] = true;
+    findings.push_back({Verdict::different, check, message, {}});
+  };
   for (size_t i = 0; i < frames.size(); ++i) {
-    const PairTrace& now = frames[i].trace;
     const std::string name = one_line(frames[i].name);
     if (const size_t shown = shown_frame(frames, i); shown != i)
-      findings.push_back(
-          {Verdict::different,
-           "sequence.order",
-           fmt::format("{} of B shows what {} of A shows", name, one_line(frames[shown].name)),
-           {}});
-    if (i == 0) continue;
-    if (repeats(frames[i - 1].trace, now))
-      findings.push_back(
-          {Verdict::different,
-           "sequence.repeated",
-           fmt::format("{} of B repeats {}, where A goes on", name, one_line(frames[i - 1].name)),
-           {}});
-    if (i + 1 < frames.size())
-      add_flicker(frames[i], flicker_of(frames[i - 1].trace, now, frames[i + 1].trace), limits,
-                  findings);
+      add(i, "sequence.order",
+          fmt::format("{} of B shows what {} of A shows", name, one_line(frames[shown].name)));
+    if (i > 0 && repeats(frames[i - 1].trace, frames[i].trace))
+      add(i, "sequence.repeated",
+          fmt::format("{} of B repeats {}, where A goes on", name, one_line(frames[i - 1].name)));
   }
+  judge_flicker(frames, out_of_place, limits, findings);
   return findings;
 }
 
