@@ -3,6 +3,7 @@
 
     cases.py                      a table (markdown): skylapse diff beside idiff, each case and the sums
     cases.py --check              skylapse alone; exit 1 if it decides any case wrongly
+    cases.py --measures           the largest value of each measure over the innocent pairs, and its limits
     cases.py --only 'S0*,P40'     some cases
 The pairs are made by the program diff_cases (tests/diff_cases).
 """
@@ -10,6 +11,7 @@ import argparse
 import concurrent.futures
 import csv
 import fnmatch
+import json
 import pathlib
 import shutil
 import subprocess
@@ -29,6 +31,7 @@ def arguments():
     parser.add_argument("--generator", type=pathlib.Path, help="default: BUILD/bin/diff_cases")
     parser.add_argument("--folder", type=pathlib.Path, help="keep the pictures here; what is there is used again")
     parser.add_argument("--check", action="store_true", help="skylapse alone, exit 1 on a wrong decision")
+    parser.add_argument("--measures", action="store_true", help="what innocent changes come to, beside the limits")
     parser.add_argument("--few", action="store_true", help="fewer frames, as in the tests")
     parser.add_argument("--only", default="*", help="ids, with wildcards, separated by commas")
     parser.add_argument("--jobs", type=int, default=2)
@@ -71,6 +74,31 @@ def decide(case, folder, program, with_idiff):
     return case
 
 
+def measured(case, folder, program):
+    """Values of the measures that have limits, of the worst of its pairs."""
+    command = [program, "diff", "--quiet", "--json", "-", folder / case["a"], folder / case["b"]]
+    values = {}
+    for pair in json.loads(run(command)[1])["pairs"]:
+        for m in pair["measures"]:
+            name = m["name"]
+            if name.startswith(("relative.region", "display.region")):
+                name = ".".join([name.split(".")[0], "region.*", name.split(".")[-1]])
+            if m["fail_limit"] is not None and isinstance(m["value"], (int, float)):
+                values[name] = max(values.get(name, (-1.0, "", 0, 0)), (m["value"], case["id"], m["warn_limit"], m["fail_limit"]))
+    return values
+
+
+def print_measures(cases, folder, program, jobs):
+    worst = {}
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for values in pool.map(lambda c: measured(c, folder, program), cases):
+            for name, value in values.items():
+                worst[name] = max(worst.get(name, (-1.0, "", 0, 0)), value)
+    print("| measure | largest of innocent pairs | case | warns above | fails above | limit / largest |\n" + "|---" * 6 + "|")
+    for name, (value, case, warn, fail) in sorted(worst.items()):
+        print(f"| `{name}` | {value:.2g} | {case} | {warn:g} | {fail:g} | " + (f"{fail / value:.1f}" if value else "") + " |")
+
+
 def mark(right):
     return "" if right else " **wrong**"
 
@@ -109,6 +137,8 @@ def main():
         cases = [c for c in listed if any(fnmatch.fnmatch(c["id"], p) for p in args.only.split(","))]
         if not cases:
             sys.exit("no case is called so")
+        if args.measures:
+            return print_measures([c for c in cases if c["kind"] == "innocent"], folder, program, args.jobs)
         with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
             cases = list(pool.map(lambda c: decide(c, folder, program, not args.check), cases))
     finally:

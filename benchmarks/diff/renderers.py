@@ -29,9 +29,10 @@ WAYS = [("EGL", [], {}), ("EGL again", [], {}), ("1 thread", ["--jobs", "1"], {"
 BRUNETON = ["--set", "sky.model=bruneton"]
 DAY = ["--set", "time.at=[2026-06-21T12:00+02:00, 2026-06-21T20:00+02:00]"]  # fits end at the horizon
 HOSEK = [*DAY, "--set", "sky={model: hosek-wilkie}"]
+SMALL = ["--set", "cameras=[{name: map, projection: lat-long, size: 64x32}]"]  # the processor takes its time
 # Pairs of models and settings: name, options of A, options of B.
 MODELS = [
-    ("bruneton draft: processor in double", [*BRUNETON], [*BRUNETON, "--set", "sky.precision=double"]),
+    ("bruneton draft: processor in double", [*BRUNETON, *SMALL], [*BRUNETON, *SMALL, "--set", "sky.precision=double"]),
     ("bruneton draft: tables of half floats", [*BRUNETON], [*BRUNETON, "--set", "sky.precision=half"]),
     ("hosek-wilkie: processor and OpenGL", HOSEK, [*DAY, "--set", "sky={model: hosek-wilkie-gl}"]),
     ("bruneton: draft and standard", [*BRUNETON], [*BRUNETON, "--set", "sky.level=standard"]),
@@ -90,13 +91,14 @@ def main():
         for also in args.also:
             label, _, other = also.partition("=")
             rows.append((label, largest(program, folder / "way0", pathlib.Path(other))))
+        print_rows("bruneton draft, against EGL: scene-linear", LINEAR, rows, "exr")
+        print_rows("bruneton draft, against EGL: for displays", DISPLAY, rows, "png")
+        sys.stdout.flush()
         models = []
         for index, (label, a, b) in enumerate(MODELS):
             for side, options in (("a", a), ("b", b)):
                 render(program, folder / f"model{index}{side}", options, {})
             models.append((label, largest(program, folder / f"model{index}a", folder / f"model{index}b")))
-        print_rows("bruneton draft, against EGL: scene-linear", LINEAR, rows, "exr")
-        print_rows("bruneton draft, against EGL: for displays", DISPLAY, rows, "png")
         print_rows("Models and settings: scene-linear", LINEAR, models, "exr")
         print_rows("Models and settings: for displays", DISPLAY, models, "png")
 
