@@ -11,9 +11,10 @@
 namespace skylapse::diff {
 namespace {
 
-/// Pairs whose files together are larger than this are compared one after another: a picture may
-/// take sixteen times the bytes of its file in memory.
-constexpr uint64_t kLargeFiles = uint64_t{64} << 20;
+/// What the pairs that are compared at once may take together; one that takes more is alone.
+constexpr double kMemory = 2.0 * (1 << 30);
+/// Smaller files are not looked into for their size in memory.
+constexpr uint64_t kSmallFiles = uint64_t{1} << 20;
 
 uint64_t bytes_of(const std::string& path) {
   std::error_code ignored;
@@ -21,7 +22,16 @@ uint64_t bytes_of(const std::string& path) {
   return ignored ? 0 : size;
 }
 
-bool is_large(const FilePair& pair) { return bytes_of(pair.a) + bytes_of(pair.b) > kLargeFiles; }
+/// Two pictures of floats, two maps of errors, and what measuring takes beside them.
+double memory_of(const FilePair& pair) {
+  if (bytes_of(pair.a) + bytes_of(pair.b) < kSmallFiles) return 0;
+  const auto io = output::open_image_io();
+  if (!io) return 0;
+  const auto header = (*io)->read_header(pair.b, 0, ReadLimits{});
+  if (!header) return 0;  // told when it is read
+  const double pixels = double(header->width) * header->height;
+  return pixels * double(2 * sizeof(float) * header->channels.size() + 3 * sizeof(float));
+}
 
 bool stopped(const DiffOptions& options) {
   return options.stop_signal != nullptr && *options.stop_signal != 0;
@@ -57,8 +67,10 @@ void conclude_all(const Rules& rules, std::vector<Finding> whole, DiffResult& re
 Status for_each_pair(const std::vector<FilePair>& pairs, const DiffOptions& options,
                      const std::function<void(Task&)>& work,
                      const std::function<void(Task&)>& keep) {
+  const int jobs = options.jobs > 0 ? options.jobs : allowed_threads();
   std::vector<size_t> small, large;
-  for (size_t i = 0; i < pairs.size(); ++i) (is_large(pairs[i]) ? large : small).push_back(i);
+  for (size_t i = 0; i < pairs.size(); ++i)
+    (memory_of(pairs[i]) * jobs > kMemory ? large : small).push_back(i);
   long done = 0;
   const auto finish = [&](Task& task) {
     keep(task);
@@ -75,7 +87,7 @@ Status for_each_pair(const std::vector<FilePair>& pairs, const DiffOptions& opti
     };
     run_pipeline<Task>(in_flight, next, work, finish, FinishOrder::as_done);
   };
-  run(small, size_t(options.jobs > 0 ? options.jobs : allowed_threads()));
+  run(small, size_t(jobs));
   run(large, 1);
   if (stopped(options))
     return Error{.code = ErrorCode::interrupted, .message = "the comparison was stopped"};

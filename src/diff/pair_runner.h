@@ -16,7 +16,8 @@ struct Task {
   PairTrace trace;
 };
 
-/// Calls `work` for every pair on several threads, pairs of large files one at a time, and `keep`
+/// Calls `work` for every pair on several threads, pairs of large pictures one at a time so that
+/// memory stays bounded, and `keep`
 /// for one at a time. Errors: interrupted.
 Status for_each_pair(const std::vector<FilePair>& pairs, const DiffOptions& options,
                      const std::function<void(Task&)>& work,
