@@ -39,9 +39,11 @@ Window stored_window(const OIIO::ImageSpec& s) {
   return {s.x, s.y, int64_t{s.x} + s.width, int64_t{s.y} + s.height};
 }
 
-/// What is shown. Formats other than OpenEXR know offsets, but no picture beside the stored one.
+/// What is shown. Formats other than OpenEXR know offsets, but no picture beside the stored one. Of
+/// tiled cube maps OpenImageIO names one face.
 Window shown_window(const OIIO::ImageSpec& s, bool exr) {
-  if (!exr || s.full_width <= 0 || s.full_height <= 0) return stored_window(s);
+  const bool cube = s.get_string_attribute("textureformat") == "CubeFace Environment";
+  if (!exr || cube || s.full_width <= 0 || s.full_height <= 0) return stored_window(s);
   return {s.full_x, s.full_y, int64_t{s.full_x} + s.full_width, int64_t{s.full_y} + s.full_height};
 }
 
