@@ -73,5 +73,7 @@ void add_bad_files(CaseList& list);
 void render_frames(CaseList& list, const std::filesystem::path& program);
 void add_renders(CaseList& list, const std::filesystem::path& program);
 void add_time_lapses(CaseList& list);
+/// Files of several parts, lossy compressions, RGBE beside floats.
+void add_file_kinds(CaseList& list, const std::filesystem::path& program);
 
 }  // namespace skylapse::diff_cases

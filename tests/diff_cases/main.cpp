@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
       add_damages(list);
       add_more_innocents(list);
       add_renders(list, argv[2]);
+      add_file_kinds(list, argv[2]);
     }
     list.write_list();
     std::printf("%zu cases in %s\n", list.cases().size(), argv[1]);
