@@ -38,6 +38,26 @@ std::string printable(std::string_view text) {
   return clean;
 }
 
+std::string xml_escaped(std::string_view text) {
+  std::string out;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (text.compare(i, 3, "\xEF\xBF\xBE") == 0 || text.compare(i, 3, "\xEF\xBF\xBF") == 0)
+      out += "?", i += 2;
+    else
+      out += c;
+  }
+  return out;
+}
+
 std::string_view beginning(std::string_view text, size_t bytes) {
   if (text.size() <= bytes) return text;
   size_t cut = bytes;

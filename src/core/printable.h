@@ -13,6 +13,10 @@ size_t utf8_length(std::string_view text, size_t at);
 /// and line end: well-formed, and unable to steer a terminal.
 std::string printable(std::string_view text);
 
+/// The text for XML 1.0, between tags or in quotes. Characters that XML does not know even so
+/// (section 2.2: U+FFFE, U+FFFF) are question marks; control characters are left to printable().
+std::string xml_escaped(std::string_view text);
+
 /// At most `bytes` bytes of the beginning, cut between two characters.
 std::string_view beginning(std::string_view text, size_t bytes);
 

@@ -90,31 +90,28 @@ double error_of_pixel(const image::Picture& a, const image::Picture& b, size_t i
   return worst;
 }
 
-/// Share of the pixels beyond the limit of the command line, in two measures of one name's limits.
+/// Share of the pixels beyond the limit of the command line: of the failing one, and if that passes
+/// of the warning one.
 void judge_simple(const SimpleLimit& simple, const image::Picture& a, const image::Picture& b,
                   const image::Comparison& comparison, const image::FlipResult& flip,
                   PairResult& pair) {
-  const bool absolute = simple.metric == "absolute";
   const double unit = a.display_referred ? 255 : 1;
   const auto error = [&](size_t i) -> double {
-    if (absolute) return error_of_pixel(a, b, i, unit);
-    return simple.metric == "flip" ? double(flip.map[i]) : double(comparison.error[i]);
+    if (simple.metric == "absolute") return error_of_pixel(a, b, i, unit);
+    return double(simple.metric == "flip" ? flip.map[i] : comparison.error[i]);
   };
-  const auto share_above = [&](double limit) {
-    size_t above = 0;
-    for (size_t i = 0; i < a.pixel_count(); ++i) above += error(i) > limit;
-    return double(above) / double(a.pixel_count());
-  };
-  Limits limits;
-  const auto judge = [&](double limit, bool fails) {
-    if (std::isnan(limit) || (simple.metric == "flip" && flip.map.empty())) return;
-    const double allowed = simple.percent / 100;
-    limits.measures["pixels.above"] = fails ? Limit{kNone, allowed} : Limit{allowed, kNone};
-    judge_measures({{"pixels.above", share_above(limit), {}}}, limits, pair);
-  };
-  judge(simple.fail, true);
-  if (pair.measures.empty() || pair.measures.back().verdict == Verdict::same)
-    judge(simple.warn, false);
+  const double allowed = simple.percent / 100;
+  for (const auto& [above, limit] : {std::pair(simple.fail, Limit{kNone, allowed}),
+                                     std::pair(simple.warn, Limit{allowed, kNone})}) {
+    if (std::isnan(above)) continue;
+    size_t beyond = 0;
+    for (size_t i = 0; i < a.pixel_count(); ++i) beyond += error(i) > above;
+    Limits limits;
+    limits.measures["pixels.above"] = limit;
+    const double share = double(beyond) / double(a.pixel_count());
+    judge_measures({{"pixels.above", share, {}}}, limits, pair);
+    if (pair.measures.back().verdict == Verdict::different) return;
+  }
 }
 
 void keep_trace(const image::Comparison& comparison, const image::Picture& a, PairTrace& trace) {

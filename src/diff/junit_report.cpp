@@ -2,36 +2,14 @@
 // with at most one of error or failure, then system-out.
 #include <fmt/format.h>
 
+#include "core/printable.h"
 #include "diff/reports.h"
 #include "diff/wording.h"
 
 namespace skylapse::diff {
 namespace {
 
-/// XML 1.0 (section 2.2) knows no control characters, not even escaped, and not U+FFFE and U+FFFF:
-/// they are question marks. Line ends stay, so the text is also fit for attributes only if it was
-/// one_line before.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (text.compare(i, 3, "\xEF\xBF\xBE") == 0 || text.compare(i, 3, "\xEF\xBF\xBF") == 0)
-      out += "?", i += 2;
-    else
-      out += c;
-  }
-  return out;
-}
-
-std::string attribute(const std::string& text) { return escaped(one_line(text)); }
+std::string attribute(const std::string& text) { return xml_escaped(one_line(text)); }
 
 std::string finding_text(const Finding& f) {
   std::string text = fmt::format("{}: {}: {}", name_of(f.severity), f.check, f.message);
@@ -74,8 +52,8 @@ std::string case_xml(const Case& c) {
   for (const auto& [tag, type] : {std::pair("error", c.error), {"failure", c.failure}})
     if (!type.empty())
       xml += fmt::format("   <{0} message=\"{1}\" type=\"{2}\">{3}</{0}>\n", tag,
-                         attribute(c.message), attribute(type), escaped(c.text));
-  if (!c.output.empty()) xml += "   <system-out>" + escaped(c.output) + "</system-out>\n";
+                         attribute(c.message), attribute(type), xml_escaped(c.text));
+  if (!c.output.empty()) xml += "   <system-out>" + xml_escaped(c.output) + "</system-out>\n";
   return xml + "  </testcase>\n";
 }
 

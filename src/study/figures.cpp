@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/printable.h"
 #include "study/report.h"
 #include "study/svg_chart.h"
 
@@ -134,7 +135,8 @@ Figure pareto_figure(const SceneResult& result, size_t scene) {
     if (!is_drawn(m)) continue;
     svg.raw(fmt::format(
         "<g data-scene=\"{}\" data-rung=\"{}\"><title>{}: {} off, {} a frame</title>{}</g>\n",
-        scene, i, escaped(m.rung.label), percent_text(cost_of(m).error), time_text(cost_of(m).ms),
+        scene, i, xml_escaped(m.rung.label), percent_text(cost_of(m).error),
+        time_text(cost_of(m).ms),
         marker(kind_of(m).number, x(cost_of(m).ms), y(cost_of(m).error))));
   }
   return {"pareto_" + result.scene.id, title, svg.document()};

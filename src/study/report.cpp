@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/printable.h"
 #include "pipeline/library/web_page.h"
 #include "study/picture.h"
 #include "study/study_texts.h"
@@ -159,7 +160,7 @@ Result<std::string> report_html(const StudyResult& study) {
   std::string figures, multiples;
   for (const Figure& figure : figures_of(study)) {
     std::string& target = figure.name.starts_with("pareto_") ? figures : multiples;
-    target += fmt::format("<figure id=\"{}\">{}</figure>\n", escaped(figure.name), figure.svg);
+    target += fmt::format("<figure id=\"{}\">{}</figure>\n", xml_escaped(figure.name), figure.svg);
   }
   return pipeline::filled_page(study_text("report.html"),
                                {{"style", pipeline::style_element(study_text("report.css"))},

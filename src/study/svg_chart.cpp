@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/printable.h"
+
 namespace skylapse::study {
 namespace {
 
@@ -43,23 +45,6 @@ double round_up(double value) {
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 std::string time_text(double ms) {
   if (ms < 1) return fmt::format("{:.2g} ms", ms);
@@ -157,7 +142,7 @@ void Svg::rect(const Box& box, const std::string& css) {
 void Svg::text(double x, double y, const std::string& text, const std::string& css,
                const std::string& attributes) {
   body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\"{}{}>{}</text>\n", x, y, css,
-                       attributes.empty() ? "" : " ", attributes, escaped(text));
+                       attributes.empty() ? "" : " ", attributes, xml_escaped(text));
 }
 
 std::string Svg::document() const {
@@ -165,7 +150,7 @@ std::string Svg::document() const {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"sk\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
       "role=\"img\" aria-label=\"{2}\">\n<title>{2}</title>\n<desc>{3}</desc>\n{4}\n"
       "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" class=\"paper\"/>\n{5}</svg>\n",
-      width_, height_, escaped(title_), escaped(description_), kStyle, body_);
+      width_, height_, xml_escaped(title_), xml_escaped(description_), kStyle, body_);
 }
 
 std::string marker(int number, double x, double y) {

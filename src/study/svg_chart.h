@@ -7,9 +7,6 @@
 
 namespace skylapse::study {
 
-/// Text with &, <, > and quotes as entities, for SVG and HTML.
-std::string escaped(const std::string& text);
-
 /// "120 ms", "3.4 s", "2 min".
 std::string time_text(double ms);
 /// "0.35 %", "12 %".

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "image/diff/error_histogram.h"
 #include "image/diff/error_scale.h"
 #include "image/diff/measure.h"
 #include "image/diff/sky_rows.h"
@@ -23,20 +24,6 @@ struct PixelSums {
   double worst = -1;
   PixelPlace worst_at;
   void add(const PixelSums& other);
-};
-
-/// Counts of pixels' errors in bins of a 32nd of an octave, from 2^-40; below: bin 0.
-class ErrorHistogram {
- public:
-  void add(float error);
-  void add(const ErrorHistogram& other);
-  /// The error that a share of the pixels does not exceed: the upper end of its bin, at most 2.2 %
-  /// too large; 0 where the bin is the lowest. NaN without pixels.
-  [[nodiscard]] double percentile(double share) const;
-
- private:
-  std::vector<uint32_t> bins_;
-  uint64_t count_ = 0;
 };
 
 /// The group of pixels (block, row, column) with the largest root mean square.
