@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What models differ by, and what broken pictures differ by: the figures behind the profile cross-model.
 
-    models.py [--build DIR]        a table (markdown); about three minutes
+    models.py [--build DIR]        a table (markdown); about four minutes
 One scene, six skies, is rendered by each model. Each pair of models is held against each other as it comes,
 and once more with the second picture broken and without a word about itself.
 """
