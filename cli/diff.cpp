@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <csignal>
-#include <filesystem>
 
 #include "cli/commands.h"
 #include "cli/diff_arguments.h"
@@ -54,7 +53,10 @@ Status write_reports(const DiffArguments& a, const diff::DiffResult& result) {
     print(diff::json_report(result));
   else if (!a.json.empty())
     note_error(diff::write_report(a.json, diff::json_report(result)));
-  if (!a.junit.empty()) note_error(diff::write_report(a.junit, diff::junit_report(result)));
+  if (a.junit == "-")
+    print(diff::junit_report(result));
+  else if (!a.junit.empty())
+    note_error(diff::write_report(a.junit, diff::junit_report(result)));
   if (!a.html.empty()) note_error(diff::write_page(result, a.html));
   if (a.heat_map.empty()) return all;
   for (const size_t i : diff::worst_first(result.pairs)) {
@@ -78,13 +80,6 @@ ExitCode exit_code(const diff::DiffResult& result) {
   return ExitCode::differs;
 }
 
-/// The first acceptance has nothing to compare with.
-bool is_first_acceptance(const DiffArguments& a) {
-  std::error_code none;
-  return a.update && (!std::filesystem::exists(a.golden_folder, none) ||
-                      std::filesystem::is_empty(a.golden_folder, none));
-}
-
 ExitCode accept(const DiffArguments& a, const diff::DiffOptions& options,
                 const ConsoleOptions& console) {
   if (const Status accepted = diff::accept_goldens(options, a.note); !accepted)
@@ -96,8 +91,7 @@ ExitCode accept(const DiffArguments& a, const diff::DiffOptions& options,
 ExitCode run_diff_command(const DiffArguments& a, const ConsoleOptions& console) {
   auto options = diff_options_of(a);
   if (!options) return report(options.error());
-  options->stop_signal = &g_signal;
-  if (is_first_acceptance(a)) return accept(a, *options, console);
+  options->pair.stop_signal = &g_signal;
   catch_signals();
   auto progress = std::make_unique<ProgressBar>(console);
   const auto begun = std::chrono::steady_clock::now();
@@ -105,7 +99,10 @@ ExitCode run_diff_command(const DiffArguments& a, const ConsoleOptions& console)
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
     if (total > 16) progress->show({done, total, 0, taken.count(), "comparing"});
   };
-  const auto result = a.self_check              ? diff::run_self_check(*options)
+  // The first acceptance has nothing to compare with.
+  const bool first = a.update && !diff::has_goldens(a.golden_folder);
+  const auto result = first                     ? Result<diff::DiffResult>(diff::DiffResult{})
+                      : a.self_check            ? diff::run_self_check(*options)
                       : a.golden_folder.empty() ? diff::run_diff(*options)
                                                 : diff::run_golden_diff(*options);
   progress.reset();
@@ -113,10 +110,15 @@ ExitCode run_diff_command(const DiffArguments& a, const ConsoleOptions& console)
     const ExitCode code = report(result.error());
     return code == ExitCode::interrupted && g_signal == SIGTERM ? ExitCode::terminated : code;
   }
-  if (!console.quiet && a.json != "-") print(result_text(*result, a.all));
+  if (!console.quiet && a.json != "-" && a.junit != "-" && !first)
+    print(result_text(*result, a.all));
   for (const auto& pair : result->pairs)
     if (pair.error) report(*pair.error);
-  if (const Status written = write_reports(a, *result); !written) return report(written.error());
+  if (const Status written = write_reports(a, *result); !written) {
+    // That pictures differ is the more important of the two.
+    const ExitCode code = report(written.error());
+    return exit_code(*result) == ExitCode::done ? code : exit_code(*result);
+  }
   if (!a.update) return exit_code(*result);
   return accept(a, *options, console);
 }
@@ -125,7 +127,7 @@ void add_report_options(CLI::App& command, DiffArguments& a) {
   command.add_option("--heatmap", a.heat_map,
                      "Errors of the worst pair in false colour (.png), or as numbers (.exr)");
   command.add_option("--json", a.json, "Report as JSON; - for standard output");
-  command.add_option("--junit", a.junit, "Report as JUnit XML");
+  command.add_option("--junit", a.junit, "Report as JUnit XML; - for standard output");
   command.add_option("--html", a.html, "Folder of a page with pictures, index.html");
   command.add_flag("--all", a.all, "A line for every pair, not only for those that differ");
 }
@@ -136,6 +138,7 @@ void add_golden_options(CLI::App& command, DiffArguments& a) {
                      "What rendered B (default: as its manifest says): which golden comes first");
   command.add_flag("--update-golden", a.update,
                    "Show the differences, then accept B as the golden of its renderer");
+  command.add_flag("--prune", a.prune, "With it: drop goldens that B has no picture for");
   command.add_option("--note", a.note, "Why, kept beside the goldens");
   command.add_flag("--self-check", a.self_check,
                    "Whether goldens of different scenes differ under the limits");

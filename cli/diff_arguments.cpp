@@ -12,11 +12,14 @@
 namespace skylapse::cli {
 namespace {
 
-Result<double> parse_value(const std::string& option, const std::string& text) {
-  const auto value = diff::parse_limit(text);
+Result<double> parse_value(const std::string& option, const std::string& text,
+                           std::string_view unit = "%") {
+  const auto value = diff::parse_limit(text, unit);
   if (value) return *value;
   return option_error(option, fmt::format("'{}' is no limit", text),
-                      "a number from 0 up, with or without %");
+                      unit == "%" ? "a number from 0 up, with or without %"
+                                  : fmt::format("a number from 0 up, no percent{}{}",
+                                                unit.empty() ? "" : ": ", unit));
 }
 
 /// "relative.rms=0.5 %", "relative.max=1 %,0.2 %" (fail, warn).
@@ -36,12 +39,17 @@ Status read_limit(const std::string& text, diff::Rules& rules) {
                         "write NAME=FAIL or NAME=FAIL,WARN: relative.rms=0.5%");
   const std::string values = text.substr(equals + 1);
   const size_t comma = values.find(',');
-  const auto fail = parse_value("--limit", values.substr(0, comma));
+  const std::string_view unit = diff::kind_of(name)->unit;
+  const auto fail = parse_value("--limit", values.substr(0, comma), unit);
   if (!fail) return fail.error();
-  diff::Limit limit{.warn = diff::kNone, .fail = *fail};
+  diff::LimitChange limit{.warn = diff::kNone, .fail = *fail};
   if (comma != std::string::npos) {
-    const auto warn = parse_value("--limit", values.substr(comma + 1));
+    const auto warn = parse_value("--limit", values.substr(comma + 1), unit);
     if (!warn) return warn.error();
+    if (name != "psnr" && *warn > *fail)
+      return option_error("--limit",
+                          fmt::format("{}: the warning limit is above the failing one", name),
+                          "write NAME=FAIL,WARN");
     limit.warn = *warn;
   }
   rules.measures[name] = limit;
@@ -192,6 +200,11 @@ Result<diff::DiffOptions, Diagnostics> diff_options_of(const DiffArguments& a) {
   auto simple = simple_limit_of(a);
   if (!simple) return Diagnostics{simple.error()};
   options.pair.simple = *simple;
+  const bool other_limits = !a.profile.empty() || !options.rules.measures.empty();
+  if (*simple && other_limits)
+    return Diagnostics{option_error(a.fail_above.empty() ? "--warn-above" : "--fail-above",
+                                    "takes the place of a profile and its limits",
+                                    "leave out --profile, --limit and the rules' limits, or it")};
   options.pair.flip = !a.no_flip;
   if (const Status view = read_view(a, options.pair); !view) return Diagnostics{view.error()};
   if (const Status flip = read_flip(a, options.pair.flip_options); !flip)
@@ -208,6 +221,7 @@ Result<diff::DiffOptions, Diagnostics> diff_options_of(const DiffArguments& a) {
                                     "allowed: 1 to 1024; 0 for as many as there are cores")};
   options.jobs = a.jobs;
   options.golden_folder = a.golden_folder, options.renderer = a.renderer;
+  options.prune = a.prune;
   const bool golden = !a.golden_folder.empty();
   if (golden && !a.b.empty())
     return Diagnostics{option_error("--golden-dir", "takes the place of A",
@@ -215,6 +229,15 @@ Result<diff::DiffOptions, Diagnostics> diff_options_of(const DiffArguments& a) {
   if (!golden && (a.update || a.self_check))
     return Diagnostics{option_error(a.update ? "--update-golden" : "--self-check", "needs goldens",
                                     "add --golden-dir DIR")};
+  if (a.self_check && (!a.a.empty() || a.update))
+    return Diagnostics{option_error("--self-check", "compares goldens with each other alone",
+                                    "write skylapse diff --self-check --golden-dir DIR")};
+  if (a.prune && !a.update)
+    return Diagnostics{option_error("--prune", "belongs to --update-golden", "add it")};
+  if (!a.heat_map.empty() && !a.heat_map.ends_with(".png") && !a.heat_map.ends_with(".exr"))
+    return Diagnostics{option_error("--heatmap",
+                                    fmt::format("'{}' is no picture of ours", a.heat_map),
+                                    "a name that ends in .png or .exr")};
   if (a.a.empty() && !a.self_check)
     return Diagnostics{option_error("diff", golden ? "B is missing" : "A and B are missing",
                                     "write skylapse diff A B, or B --golden-dir DIR")};

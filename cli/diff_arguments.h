@@ -15,7 +15,7 @@ struct DiffArguments {
   std::vector<std::string> limits, checks, ignore;
   std::string heat_map, json, junit, html;
   std::string golden_folder, renderer, note;
-  bool update = false, self_check = false, no_flip = false, all = false;
+  bool update = false, prune = false, self_check = false, no_flip = false, all = false;
   std::string projection, sun, psnr_peak, tone_mapper = "aces", exposures, pixels_per_degree;
   bool published_exposures = false;
   int jobs = 0;

@@ -23,6 +23,11 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// What is left of a pair is not worth finishing: the whole comparison ends as interrupted.
+bool stopped(const PairOptions& options) {
+  return options.stop_signal != nullptr && *options.stop_signal != 0;
+}
+
 Result<ReadPicture> read_side(const std::string& path, const std::string& manifest_entry,
                               const ReadLimits& limits) {
   const auto entry = nlohmann::json::parse(manifest_entry, nullptr, false);
@@ -70,8 +75,10 @@ image::SkyView view_of(const ReadPicture& a, const ReadPicture& b, const PairOpt
   return view;
 }
 
-image::CompareOptions compare_options(const ReadPicture& a, const PairOptions& options) {
+image::CompareOptions compare_options(const ReadPicture& a, const Limits& limits,
+                                      const PairOptions& options) {
   image::CompareOptions out;
+  out.forgive_rounding = limits.profile != Profile::exact;
   out.psnr_peak = options.psnr_peak;
   if (const auto space = color::rgb_space_from_name(a.facts.color_space))
     out.rgb_to_xyz = color::rgb_to_xyz(*space);
@@ -126,11 +133,12 @@ void measure(const ReadPicture& a, const ReadPicture& b, const Limits& limits,
              const PairOptions& options, PairResult& pair, PairTrace* trace) {
   Stopwatch watch;
   const auto comparison =
-      image::compare(a.picture, b.picture, pair.view, compare_options(a, options));
+      image::compare(a.picture, b.picture, pair.view, compare_options(a, limits, options));
   if (trace != nullptr) keep_trace(comparison, a.picture, *trace);
   pair.measure_ms = watch.ms();
   const bool wants_flip = options.simple && options.simple->metric == "flip";
   image::FlipResult flip;
+  if (stopped(options)) return;
   if (options.flip || wants_flip) {
     flip = image::flip(a.picture, b.picture, options.flip_options);
     pair.flip_ms = watch.ms();
@@ -162,12 +170,14 @@ PairResult compare_pair(const FilePair& files, const Limits& limits, const PairO
     return pair;
   }
   pair.a = a->facts.file;
+  if (stopped(options)) return pair;
   auto b = read_side(files.b, files.manifest_entry_b, options.limits);
   if (!b) {
     pair.error = b.error();
     return pair;
   }
   pair.b = b->facts.file;
+  if (stopped(options)) return pair;
   pair.read_ms = watch.ms();
   if (pair.a.renderer.empty()) pair.a.renderer = files.renderer_a;
   if (pair.b.renderer.empty()) pair.b.renderer = files.renderer_b;

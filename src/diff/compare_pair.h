@@ -1,5 +1,6 @@
 #pragma once
 // One pair of files: read, checked, measured, judged.
+#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct PairOptions {
   std::optional<image::Camera> camera;  // its size is that of the picture
   std::optional<Direction<Enu>> sun;
   std::optional<SimpleLimit> simple;
+  const std::atomic<int>* stop_signal = nullptr;
 };
 
 /// What measures over time need of a pair; light enough to be kept for every frame.

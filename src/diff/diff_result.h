@@ -76,7 +76,7 @@ struct DiffResult {
   std::vector<Finding> findings;  // of the whole: missing and extra files, order, flicker
   Verdict verdict = Verdict::same;
   bool unreadable = false;  // some file could not be read: exit 4
-  size_t contrasts = 0;      // of a self-check: pairs of goldens that were tried
+  size_t contrasts = 0;     // of a self-check: pairs of goldens that were tried
   double seconds = 0;
 };
 

@@ -15,12 +15,14 @@ namespace {
 
 using GoldensByName = std::map<std::string, const Golden*>;
 
-/// The likeliest variant that passes, else the one that comes nearest to passing.
+/// The variant of the same renderer; where there is none the likeliest that passes, else the one
+/// that comes nearest to passing.
 Task against_variants(const FilePair& tested, const Golden& golden, const DiffOptions& options) {
   const Limits limits = limits_for(options.rules, tested.name);
   Task best;
   double least = 0;
-  for (const GoldenVariant& variant : variants_for(golden, renderer_of(tested, options.renderer))) {
+  const std::string renderer = renderer_of(tested, options.renderer);
+  for (const GoldenVariant& variant : variants_for(golden, renderer)) {
     FilePair pair = tested;
     pair.a = (std::filesystem::path(options.golden_folder) / variant.file).string();
     Task task;
@@ -35,6 +37,8 @@ Task against_variants(const FilePair& tested, const Golden& golden, const DiffOp
       best = std::move(task);
       least = ratio;
     }
+    // What its own renderer made decides; of others any may agree.
+    if (variant.renderer == renderer) break;
     if (!best.result.error && best.result.verdict == Verdict::same) break;
   }
   return best;
@@ -87,9 +91,8 @@ Status check_goldens(const std::string& folder, const std::vector<Golden>& golde
 Result<DiffResult> run_golden_diff(const DiffOptions& options) {
   const auto goldens = read_goldens(options.golden_folder);
   if (!goldens) return goldens.error();
-  auto list = list_files(options.b, options.rules.ignore);
+  auto list = list_files(options.b, ignored_names(options.rules));
   if (!list) return list.error();
-  drop_ignored(options.rules, *list);
   GoldensByName by_name;
   for (const Golden& golden : *goldens) by_name[golden.name] = &golden;
   std::vector<Finding> whole = std::move(list->findings);
@@ -114,6 +117,8 @@ Result<DiffResult> run_self_check(const DiffOptions& options) {
   if (!goldens) return goldens.error();
   const auto contrasts = golden_contrasts(options.golden_folder, *goldens);
   if (!contrasts) return contrasts.error();
+  if (contrasts->empty())
+    return nothing_to_compare(options.golden_folder + " has no two goldens of different scenes");
   std::vector<FilePair> pairs;
   const std::filesystem::path folder(options.golden_folder);
   for (const GoldenContrast& contrast : *contrasts) {
@@ -128,9 +133,13 @@ Result<DiffResult> run_self_check(const DiffOptions& options) {
     if (check.starts_with("metadata.")) blind.rules.checks[check] = Severity::ignore;
   DiffResult result;
   result.a = result.b = options.golden_folder;
+  // Under the limits of either name: rules of one path must not blind the other's.
   const auto work = [&](Task& task) {
-    const FilePair& pair = pairs[task.index];
-    task.result = compare_pair(pair, limits_for(blind.rules, pair.name), blind.pair);
+    const GoldenContrast& contrast = (*contrasts)[task.index];
+    for (const std::string& name : {contrast.name_a, contrast.name_b}) {
+      task.result = compare_pair(pairs[task.index], limits_for(blind.rules, name), blind.pair);
+      if (task.result.error || task.result.verdict != Verdict::different) return;
+    }
   };
   const Status compared = run_pairs(pairs, blind, work, {}, result);
   if (!compared) return compared.error();
@@ -151,11 +160,43 @@ Result<DiffResult> run_self_check(const DiffOptions& options) {
   return result;
 }
 
+namespace {
+
+/// Pictures with NaN or infinite samples are no reference: later checks could not tell what is
+/// wrong from what was accepted.
+Status check_fit(const std::vector<FilePair>& files, const DiffOptions& options) {
+  PairOptions quick = options.pair;
+  quick.flip = false;
+  for (FilePair file : files) {
+    file.a = file.b, file.manifest_entry_a = file.manifest_entry_b;
+    const Limits limits = limits_for(options.rules, file.name);
+    const PairResult pair = compare_pair(file, limits, quick);
+    if (pair.error) return *pair.error;
+    for (const Finding& finding : pair.findings)
+      if (finding.check == "odd-reference")
+        return Error{
+            .code = ErrorCode::invalid_input,
+            .message = fmt::format("{} is no golden: {}", one_line(file.name), finding.message),
+            .hint = "--check odd-reference=ignore accepts it"};
+  }
+  return Done{};
+}
+
+}  // namespace
+
 Status accept_goldens(const DiffOptions& options, const std::string& note) {
-  auto list = list_files(options.b, options.rules.ignore);
+  const auto list = list_files(options.b, ignored_names(options.rules));
   if (!list) return list.error();
-  drop_ignored(options.rules, *list);
-  return update_goldens({options.golden_folder, options.renderer, note}, list->pairs);
+  if (const Status fit = check_fit(list->pairs, options); !fit) return fit;
+  return update_goldens({options.golden_folder, options.renderer, note, options.prune},
+                        list->pairs);
+}
+
+bool has_goldens(const std::string& folder) {
+  const auto goldens = read_goldens(folder);
+  std::error_code none;
+  return goldens.ok() ||
+         std::filesystem::exists(std::filesystem::path(folder) / "golden.json", none);
 }
 
 }  // namespace skylapse::diff

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
 
 #include "astro/time/instant.h"
@@ -146,6 +147,11 @@ Status update_goldens(const GoldenUpdate& update, const std::vector<FilePair>& t
     const Status written =
         output::write_file_atomically(fs::path(update.folder) / files[i], *bytes);
     if (!written) return written;
+  }
+  if (update.prune) {
+    std::set<std::string> names;
+    for (const FilePair& pair : tested) names.insert(pair.name);
+    std::erase_if(*goldens, [&](const auto& golden) { return !names.contains(golden.first); });
   }
   using Handler = nlohmann::ordered_json::error_handler_t;
   const std::string text = to_json(*goldens).dump(1, ' ', false, Handler::replace) + "\n";

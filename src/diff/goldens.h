@@ -45,6 +45,7 @@ std::vector<GoldenVariant> variants_for(const Golden& golden, const std::string&
 
 struct GoldenUpdate {
   std::string folder, renderer, note;
+  bool prune = false;  // goldens whose names are not among the tested files go
 };
 
 /// Copies the tested files into the golden folder as the variants of their renderer, whole files

@@ -16,6 +16,11 @@ struct Limit {
   double warn = kNone, fail = kNone;
 };
 
+/// What rules say of a limit; the other half stays as it is.
+struct LimitChange {
+  std::optional<double> warn, fail;
+};
+
 /// What a check that is no number does when it finds something.
 enum class Severity { ignore, warn, fail };
 
@@ -59,21 +64,25 @@ const MeasureKind* kind_of(const std::string& measure);
 /// All checks that are no numbers.
 const std::vector<std::string>& check_names();
 
-/// "0.2 %", "0.002", "off": what a limit may be, in fractions; nothing if it is none of these.
-std::optional<double> parse_limit(std::string_view text);
+/// "0.2 %", "0.002", "off": what a limit of that measure may be, in fractions; nothing if it is
+/// none of these, or percent of what is no share.
+std::optional<double> parse_limit(std::string_view text, std::string_view unit = "%");
+
+/// Sets what the change sets, of all that the name or pattern covers.
+void apply(Limits& limits, const std::string& measure, const LimitChange& change);
 
 /// Of a path: later rules win over earlier ones.
 struct PathRule {
   std::string path;  // glob, pairs.h
   bool ignore = false;
   std::optional<Profile> profile;
-  std::map<std::string, Limit> measures;
+  std::map<std::string, LimitChange> measures;
   std::map<std::string, Severity> checks;
 };
 
 struct Rules {
   std::optional<Profile> profile;
-  std::map<std::string, Limit> measures;
+  std::map<std::string, LimitChange> measures;
   std::map<std::string, Severity> checks;
   std::vector<std::string> ignore;  // globs of names that are left out
   std::vector<PathRule> paths;

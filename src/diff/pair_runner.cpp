@@ -1,7 +1,6 @@
 #include "diff/pair_runner.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 
 #include "core/parallel.h"
@@ -13,18 +12,9 @@ namespace {
 
 /// What the pairs that are compared at once may take together; one that takes more is alone.
 constexpr double kMemory = 2.0 * (1 << 30);
-/// Smaller files are not looked into for their size in memory.
-constexpr uint64_t kSmallFiles = uint64_t{1} << 20;
-
-uint64_t bytes_of(const std::string& path) {
-  std::error_code ignored;
-  const auto size = std::filesystem::file_size(path, ignored);
-  return ignored ? 0 : size;
-}
 
 /// Two pictures of floats, two maps of errors, and what measuring takes beside them.
 double memory_of(const FilePair& pair) {
-  if (bytes_of(pair.a) + bytes_of(pair.b) < kSmallFiles) return 0;
   const auto io = output::open_image_io();
   if (!io) return 0;
   const auto header = (*io)->read_header(pair.b, 0, ReadLimits{});
@@ -34,18 +24,19 @@ double memory_of(const FilePair& pair) {
 }
 
 bool stopped(const DiffOptions& options) {
-  return options.stop_signal != nullptr && *options.stop_signal != 0;
+  return options.pair.stop_signal != nullptr && *options.pair.stop_signal != 0;
 }
 
 /// Findings about the sequences among the pairs; limits are those of a sequence's first frame.
 void judge_sequences(const std::vector<FilePair>& pairs, std::vector<PairTrace>& traces,
-                     const Rules& rules, DiffResult& result) {
+                     const DiffOptions& options, DiffResult& result) {
   std::map<int, std::vector<TracedFrame>> sequences;
   for (size_t i = 0; i < pairs.size(); ++i)
     if (pairs[i].sequence >= 0)
       sequences[pairs[i].sequence].push_back({pairs[i].name, std::move(traces[i])});
   for (const auto& [number, frames] : sequences) {
-    const Limits limits = limits_for(rules, frames.front().name);
+    Limits limits = limits_for(options.rules, frames.front().name);
+    if (options.pair.simple) limits.measures.clear();  // pixels alone decide
     std::vector<Finding> findings = judge_sequence(frames, limits);
     result.verdict = std::max(result.verdict, settle(limits, findings));
     result.findings.insert(result.findings.end(), findings.begin(), findings.end());
@@ -105,14 +96,23 @@ Status run_pairs(const std::vector<FilePair>& pairs, const DiffOptions& options,
     traces[task.index] = std::move(task.trace);
   });
   if (!compared) return compared;
-  judge_sequences(pairs, traces, options.rules, result);
+  judge_sequences(pairs, traces, options, result);
   conclude_all(options.rules, std::move(whole), result);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return Done{};
 }
 
-void drop_ignored(const Rules& rules, PairList& list) {
-  std::erase_if(list.pairs, [&](const FilePair& p) { return is_ignored(rules, p.name); });
+std::vector<std::string> ignored_names(const Rules& rules) {
+  std::vector<std::string> globs = rules.ignore;
+  for (const PathRule& rule : rules.paths)
+    if (rule.ignore) globs.push_back(rule.path);
+  return globs;
+}
+
+Error nothing_to_compare(const std::string& what) {
+  return {.code = ErrorCode::missing_input,
+          .message = what + ": there is nothing to compare",
+          .hint = "look at what is left out (--ignore, ignore in the rules)"};
 }
 
 }  // namespace skylapse::diff

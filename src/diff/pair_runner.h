@@ -29,7 +29,10 @@ Status run_pairs(const std::vector<FilePair>& pairs, const DiffOptions& options,
                  const std::function<void(Task&)>& work, std::vector<Finding> whole,
                  DiffResult& result);
 
-/// Leaves out the files that rules pass over.
-void drop_ignored(const Rules& rules, PairList& list);
+/// Patterns of the names that rules leave out.
+std::vector<std::string> ignored_names(const Rules& rules);
+
+/// A comparison of nothing must not pass.
+Error nothing_to_compare(const std::string& what);
 
 }  // namespace skylapse::diff

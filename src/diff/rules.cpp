@@ -72,7 +72,7 @@ class RulesReader {
     return {};
   }
 
-  void read_limits(const Node& node, std::map<std::string, Limit>& limits) {
+  void read_limits(const Node& node, std::map<std::string, LimitChange>& limits) {
     if (!is_map(node, "limits")) return;
     for (const config::MapEntry& entry : node.entries) {
       if (kind_of(entry.key) == nullptr) {
@@ -82,24 +82,32 @@ class RulesReader {
             near ? fmt::format("did you mean {}?", *near) : "known measures: skylapse diff --help");
         continue;
       }
-      limits[entry.key] = read_limit(entry.value);
+      limits[entry.key] = read_limit(entry.key, entry.value);
     }
   }
 
-  Limit read_limit(const Node& node) {
-    if (node.kind != Kind::map) return {kNone, read_number(node)};
+  /// A plain value fails; nothing warns then.
+  LimitChange read_limit(const std::string& measure, const Node& node) {
+    if (node.kind != Kind::map) return {kNone, read_number(measure, node)};
     check_keys(node, {"warn", "fail"});
-    Limit limit;
-    if (const Node* warn = find_key(node, "warn")) limit.warn = read_number(*warn);
-    if (const Node* fail = find_key(node, "fail")) limit.fail = read_number(*fail);
-    return limit;
+    LimitChange change;
+    const Node *warn = find_key(node, "warn"), *fail = find_key(node, "fail");
+    if (warn != nullptr) change.warn = read_number(measure, *warn);
+    if (fail != nullptr) change.fail = read_number(measure, *fail);
+    if (measure != "psnr" && change.warn && change.fail && *change.warn > *change.fail)
+      errors_.add(warn->place, "the warning limit is above the failing one",
+                  "exchange them: warn comes first");
+    return change;
   }
 
-  double read_number(const Node& node) {
-    const auto value = node.kind == Kind::scalar ? parse_limit(node.text) : std::nullopt;
+  double read_number(const std::string& measure, const Node& node) {
+    const std::string_view unit = kind_of(measure)->unit;
+    const auto value = node.kind == Kind::scalar ? parse_limit(node.text, unit) : std::nullopt;
     if (value) return *value;
-    errors_.add(node.place, fmt::format("'{}' is no limit", shown(node.text)),
-                "a number from 0 up, with or without %, or off");
+    errors_.add(node.place, fmt::format("'{}' is no limit of {}", shown(node.text), measure),
+                unit == "%" ? std::string("a number from 0 up, with or without %, or off")
+                            : fmt::format("a number from 0 up{}{}, or off",
+                                          unit.empty() ? "" : ", in ", unit));
     return kNone;
   }
 

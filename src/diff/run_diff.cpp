@@ -5,9 +5,9 @@
 namespace skylapse::diff {
 
 Result<DiffResult> run_diff(const DiffOptions& options) {
-  auto list = pair_files(options.a, options.b, options.rules.ignore);
+  auto list = pair_files(options.a, options.b, ignored_names(options.rules));
   if (!list) return list.error();
-  drop_ignored(options.rules, *list);
+  if (list->pairs.empty() && list->findings.empty()) return nothing_to_compare(options.b);
   DiffResult result;
   result.a = options.a, result.b = options.b;
   const auto work = [&](Task& task) {

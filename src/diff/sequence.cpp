@@ -20,9 +20,10 @@ constexpr size_t kWindow = 16, kShort = 256;
 
 /// Whether B stands still from `before` to `now` although A does not.
 bool repeats(const PairTrace& before, const PairTrace& now) {
-  if (now.hash_a == before.hash_a) return false;
-  if (now.hash_b == before.hash_b) return true;
+  // A sky that stands still but for its lowest bits does not go on.
   const double moved = thumbnail_distance(before.thumbnail_a, now.thumbnail_a, now.display);
+  if (now.hash_a == before.hash_a || moved < kNothing) return false;
+  if (now.hash_b == before.hash_b) return true;
   const double moved_b = thumbnail_distance(before.thumbnail_b, now.thumbnail_b, now.display);
   return moved > kNothing / kNearer && moved_b < kNothing;
 }
@@ -40,6 +41,7 @@ size_t shown_frame(const std::vector<TracedFrame>& frames, size_t i) {
   for (size_t j = begin; j < end; ++j) {
     const PairTrace& other = frames[j].trace;
     if (j == i || !other.valid || other.hash_a == own.hash_a) continue;
+    if (thumbnail_distance(own.thumbnail_a, other.thumbnail_a, own.display) < kNothing) continue;
     const double distance =
         own.hash_b == other.hash_a
             ? -1

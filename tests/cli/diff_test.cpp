@@ -142,6 +142,12 @@ TEST_F(Diff, WrongArgumentsAreExitCode3WithWhatIsAllowed) {
       {{a, a, "--golden-dir", folder_}, "takes the place of A"},
       {{a, a, "--update-golden"}, "--golden-dir"},
       {{a, a, "--self-check"}, "--golden-dir"},
+      {{a, "--self-check", "--golden-dir", folder_}, "with each other alone"},
+      {{a, a, "--fail-above", "1", "--limit", "relative.max=1"}, "takes the place of a profile"},
+      {{a, a, "--limit", "display.max=1%"}, "no percent"},
+      {{a, a, "--limit", "relative.max=1%,5%"}, "above the failing one"},
+      {{a, a, "--heatmap", "x.jpg"}, ".png or .exr"},
+      {{a, a, "--prune"}, "belongs to --update-golden"},
       {{a, a, "--htm", "x"}, "did you mean '--html'?"},
       {{a, a, "--rules", write_text(scratch_ / "r.yaml", "limts: {}\n")}, "r.yaml:1:1"},
   };
@@ -196,9 +202,10 @@ TEST_F(Diff, ReportsAreWritten) {
 TEST_F(Diff, AReportThatCannotBeWrittenIsExitCode6AndTheOthersAreThere) {
   const auto file = write_text(scratch_ / "file", "no folder\n");
   const auto outcome =
-      diff({frame(1), frame(2), "--json", file / "r.json", "--junit", scratch_ / "r.xml"});
+      diff({frame(1), frame(1), "--json", file / "r.json", "--junit", scratch_ / "r.xml"});
   EXPECT_EQ(outcome.exit_code, 6) << outcome.err;
   EXPECT_TRUE(fs::exists(scratch_ / "r.xml"));
+  EXPECT_EQ(diff({frame(1), frame(2), "--json", file / "r.json"}).exit_code, 2);
 }
 
 TEST_F(Diff, GoldensAreAcceptedAndHeldAgainst) {
@@ -218,8 +225,31 @@ TEST_F(Diff, GoldensAreAcceptedAndHeldAgainst) {
       diff({folder_ / "late", "--golden-dir", goldens, "--update-golden", "--renderer", "another"})
           .exit_code,
       0);
-  EXPECT_EQ(diff({folder_ / "late", "--golden-dir", goldens}).exit_code, 0);
+  EXPECT_EQ(diff({folder_ / "late", "--golden-dir", goldens, "--renderer", "another"}).exit_code,
+            0);
   EXPECT_EQ(diff({folder_ / "a", "--golden-dir", goldens}).exit_code, 0);
+  EXPECT_EQ(diff({folder_ / "a", "--golden-dir", goldens, "--renderer", "another"}).exit_code, 2)
+      << "another renderer's golden is no excuse";
+  EXPECT_EQ(diff({folder_ / "a", "--golden-dir", goldens, "--renderer", "a third"}).exit_code, 0);
+}
+
+TEST_F(Diff, AComparisonOfNothingDoesNotPass) {
+  const auto rules = write_text(scratch_ / "r.yaml", "paths: [{path: \"**\", ignore: true}]\n");
+  EXPECT_EQ(diff({folder_ / "a", folder_ / "late", "--rules", rules}).exit_code, 4);
+  EXPECT_EQ(diff({folder_ / "a", folder_ / "late", "--ignore", "**"}).exit_code, 4);
+}
+
+TEST_F(Diff, GoldensOfScenesThatAreGoneArePruned) {
+  const auto goldens = scratch_ / "goldens";
+  fs::create_directories(goldens);
+  write_text(goldens / "README.md", "goldens\n");
+  ASSERT_EQ(diff({folder_ / "a", "--golden-dir", goldens, "--update-golden"}).exit_code, 0);
+  fs::create_directories(scratch_ / "b");
+  fs::copy_file(frame(1), scratch_ / "b" / "f.0001.exr");
+  EXPECT_EQ(diff({scratch_ / "b", "--golden-dir", goldens}).exit_code, 2);
+  EXPECT_EQ(diff({scratch_ / "b", "--golden-dir", goldens, "--update-golden", "--prune"}).exit_code,
+            0);
+  EXPECT_EQ(diff({scratch_ / "b", "--golden-dir", goldens}).exit_code, 0);
 }
 
 TEST_F(Diff, LimitsThatLetEverythingPassFailTheSelfCheck) {

@@ -93,9 +93,35 @@ TEST(Rules, AllErrorsAreToldWithTheirPlaces) {
   EXPECT_EQ(rules.error().size(), 7u) << text;
   for (const char* part :
        {"rules.yaml:1:1", "did you mean profile?", "rules.yaml:2:10", "did you mean relative.rms?",
-        "'-3' is no limit", "'never' is no severity", "did you mean nan?", "has no path",
-        "did you mean cross-model?", "rules.yaml:7:14"})
+        "'-3' is no limit of relative.max", "'never' is no severity", "did you mean nan?",
+        "has no path", "did you mean cross-model?", "rules.yaml:7:14"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+TEST(Rules, HalfALimitLeavesTheOtherHalf) {
+  const auto rules =
+      parse_rules("limits: {relative.max: {warn: 0.05 %}, relative.rms: 3 %}\n", "r");
+  ASSERT_TRUE(rules.ok());
+  const Limits limits = limits_for(*rules, "x");
+  EXPECT_DOUBLE_EQ(limit_of(limits, "relative.max").warn, 0.0005);
+  EXPECT_EQ(limit_of(limits, "relative.max").fail,
+            limit_of(profile_limits(Profile::cross_renderer), "relative.max").fail);
+  EXPECT_TRUE(std::isnan(limit_of(limits, "relative.rms").warn)) << "a plain value only fails";
+}
+
+TEST(Rules, APatternCoversTheNamesOfEarlierRules) {
+  const auto rules = parse_rules(
+      "limits: {relative.region.zenith.bias: 10 %}\n"
+      "paths: [{path: \"*\", limits: {relative.region.*.bias: 1 %}}]\n",
+      "r");
+  ASSERT_TRUE(rules.ok());
+  EXPECT_DOUBLE_EQ(limit_of(limits_for(*rules, "x"), "relative.region.zenith.bias").fail, 0.01);
+}
+
+TEST(Rules, LimitsThatMeanNothingAreRefused) {
+  for (const char* text : {"limits: {relative.max: {warn: 2 %, fail: 1 %}}",
+                           "limits: {display.max: 1 %}", "limits: {sun.shift_deg: {fail: 2 %}}"})
+    EXPECT_FALSE(parse_rules(text, "r").ok()) << text;
 }
 
 TEST(Rules, AnEmptyFileChangesNothing) {

@@ -113,16 +113,23 @@ namespace {
 
 struct Window {
   int x0, y0, x1, y1;  // half open
+  bool wraps;
 };
 
-Window window_of(const Picture& p, double x, double y, double reach) {
-  const auto low = [&](double v, int size) {
-    return int(std::clamp(std::floor(v - reach), 0.0, double(size)));
-  };
-  const auto high = [&](double v, int size) {
-    return int(std::clamp(std::ceil(v + reach), 0.0, double(size)));
-  };
-  return {low(x, p.width), low(y, p.height), high(x, p.width), high(y, p.height)};
+Window window_of(const Picture& p, double x, double y, double reach, bool wraps) {
+  const auto low = [](double v) { return int(std::clamp(std::floor(v), -1e9, 1e9)); };
+  Window w{low(x - reach), low(y - reach), low(x + reach) + 1, low(y + reach) + 1, wraps};
+  w.y0 = std::max(w.y0, 0), w.y1 = std::min(w.y1, p.height);
+  if (!wraps)
+    w.x0 = std::max(w.x0, 0), w.x1 = std::min(w.x1, p.width);
+  else if (w.x1 - w.x0 > p.width)
+    w.x0 = 0, w.x1 = p.width;
+  return w;
+}
+
+float light_in(const Picture& p, int x, int y) {
+  const int column = x % p.width;
+  return light_of(p, column < 0 ? column + p.width : column, y);
 }
 
 /// Median light of the window's outermost pixels.
@@ -131,30 +138,34 @@ float rim_light(const Picture& p, const Window& w) {
   for (int y = w.y0; y < w.y1; ++y)
     for (int x = w.x0; x < w.x1; ++x)
       if (x == w.x0 || x == w.x1 - 1 || y == w.y0 || y == w.y1 - 1)
-        rim.push_back(light_of(p, x, y));
+        rim.push_back(light_in(p, x, y));
   const auto middle = rim.begin() + std::ptrdiff_t(rim.size() / 2);
   std::nth_element(rim.begin(), middle, rim.end());
   return *middle;
 }
 
+/// A disc outshines its surroundings by that much even through haze.
+constexpr float kOutshines = 10;
+
 }  // namespace
 
-std::optional<Spot> find_spot(const Picture& picture, double x, double y, double reach) {
-  const Window w = window_of(picture, x, y, reach);
+std::optional<Spot> find_spot(const Picture& picture, double x, double y, double reach,
+                              bool wraps) {
+  const Window w = window_of(picture, x, y, reach, wraps);
   if (w.x0 >= w.x1 || w.y0 >= w.y1) return {};
   float brightest = 0;
   for (int j = w.y0; j < w.y1; ++j)
     for (int i = w.x0; i < w.x1; ++i) {
-      const float light = light_of(picture, i, j);
+      const float light = light_in(picture, i, j);
       if (!std::isfinite(light)) return {};
       brightest = std::max(brightest, light);
     }
   const float rim = rim_light(picture, w);
-  if (!(brightest > 2 * rim)) return {};
+  if (!(brightest > kOutshines * rim)) return {};
   Spot spot;
   for (int j = w.y0; j < w.y1; ++j)
     for (int i = w.x0; i < w.x1; ++i) {
-      const float light = light_of(picture, i, j);
+      const float light = light_in(picture, i, j);
       // A tenth of the peak cuts the aureole off, whose slope would pull the centroid.
       if (light < rim + 0.1F * (brightest - rim)) continue;
       const double above = double(light) - double(rim);

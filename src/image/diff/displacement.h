@@ -27,8 +27,9 @@ struct Spot {
 };
 
 /// The spot in the window of `reach` pixels about x, y: light beyond a tenth of the way from the
-/// window's rim (its median) to its brightest pixel. Nothing if that pixel is not twice as bright
-/// as the rim, or a pixel is no number.
-std::optional<Spot> find_spot(const Picture& picture, double x, double y, double reach);
+/// window's rim (its median) to its brightest pixel. Nothing if that pixel is not ten times as
+/// bright as the rim (a glow is no disc), or a pixel is no number. With `wraps` the window goes on
+/// behind the left and right edges, and x of the spot may lie beyond them.
+std::optional<Spot> find_spot(const Picture& picture, double x, double y, double reach, bool wraps);
 
 }  // namespace skylapse::image

@@ -88,8 +88,7 @@ class RowPass {
     sums_.samples += kColours;
     if (same) return;
     sums_.identical = false;
-    const float rounding = scale_.absolute_step +
-                           (scale_.rgbe_step > 0 ? scale_.rgbe_step * last_place(strongest) : 0);
+    const float rounding = rounding_of(strongest);
     for (int c = 0; c < kColours; ++c) colour(a[c], b[c], c, strongest, rounding, at, e);
   }
 
@@ -115,7 +114,23 @@ class RowPass {
 
   template <int kColours>
   void odd_colours(const float* a, const float* b, PixelPlace at, PixelError& e) {
-    for (int c = 0; c < kColours; ++c) comparable(a[c], b[c], c, at, e);
+    // The channels beside the odd one are compared as ever.
+    float strongest = 0;
+    for (int c = 0; c < kColours; ++c)
+      for (const float v : {a[c], b[c]})
+        if (std::isfinite(v)) strongest = std::max(strongest, std::fabs(v));
+    for (int c = 0; c < kColours; ++c) {
+      if (!comparable(a[c], b[c], c, at, e)) continue;
+      ++sums_.samples;
+      if (a[c] == b[c]) continue;
+      sums_.identical = false;
+      colour(a[c], b[c], c, strongest, rounding_of(strongest), at, e);
+    }
+  }
+
+  [[nodiscard]] float rounding_of(float strongest) const {
+    return scale_.absolute_step +
+           (scale_.rgbe_step > 0 ? scale_.rgbe_step * last_place(strongest) : 0);
   }
 
   template <int kColours>

@@ -17,6 +17,8 @@ namespace {
 /// A fitted move counts as one if it explains most of the difference, and changes the light by more
 /// than rounding to halves may.
 constexpr double kExplained = 0.5, kEffect = 1e-4;
+/// Farther than a straight line for the light between pixels can tell.
+constexpr double kFarthest = 3;
 
 class MeasureList {
  public:
@@ -168,6 +170,7 @@ void add_displacement(const Picture& a, const Picture& b, const SkyView& view, M
   const auto move = fit_displacement(a, b, wraps);
   if (!move || move->explained < kExplained || move->effect < kEffect) return;
   const double size = std::hypot(move->x, move->y);
+  if (size > kFarthest) return;
   list.plain("position.shift_px", size);
   list.plain("position.right_px", move->x);
   list.plain("position.down_px", move->y);
@@ -198,15 +201,19 @@ void add_spot(const Picture& a, const Picture& b, const SkyView& view, const Err
               MeasureList& list) {
   const auto search = spot_search(a, view, sums);
   if (!search) return;
-  const auto sa = find_spot(a, search->x, search->y, search->reach);
+  const bool wraps = view.camera->projection == Projection::lat_long;
+  const auto sa = find_spot(a, search->x, search->y, search->reach, wraps);
   if (!sa) return;
-  const PixelPlace place{int(sa->x), int(sa->y), -1};
-  const auto sb = find_spot(b, search->x, search->y, search->reach);
+  const PixelPlace place{(int(std::floor(sa->x)) + a.width) % a.width, int(sa->y), -1};
+  const auto sb = find_spot(b, search->x, search->y, search->reach, wraps);
   if (!sb) return list.plain("sun.flux", 1, place);
   list.plain("sun.flux", std::fabs(sb->light - sa->light) / std::max(sa->light, sb->light), place);
   list.plain("sun.shift_px", std::hypot(sb->x - sa->x, sb->y - sa->y), place);
-  const auto from = direction_at(*view.camera, {sa->x, sa->y});
-  const auto to = direction_at(*view.camera, {sb->x, sb->y});
+  const auto seen = [&](const Spot& spot) {
+    const double turns = wraps ? std::floor(spot.x / a.width) : 0;
+    return direction_at(*view.camera, {spot.x - turns * a.width, spot.y});
+  };
+  const auto from = seen(*sa), to = seen(*sb);
   if (from && to) list.plain("sun.shift_deg", separation(*from, *to).in(deg), place);
 }
 
@@ -283,6 +290,7 @@ Comparison compare(const Picture& a, const Picture& b, const SkyView& view,
                       : a.display_referred ? 1
                                            : bright_light(a);
   scale.peak = float(peak);
+  if (!options.forgive_rounding) scale.absolute_step = scale.half_step = scale.rgbe_step = 0;
   const ErrorSums sums = sum_errors(a, b, scale, view, result.error);
   result.odd = sums.odd, result.identical = sums.identical;
   result.hash_a = hash_of(a);

@@ -47,6 +47,8 @@ glm::dmat3 rec709_to_xyz();
 
 struct CompareOptions {
   glm::dmat3 rgb_to_xyz = rec709_to_xyz();  // of scene-linear pictures
+  /// Rounding in the files is taken off errors (error_scale.h); not if every difference counts.
+  bool forgive_rounding = true;
   std::optional<double> psnr_peak;  // nothing: 255 code values; linear: the brightest 0.1 % of a
 };
 

@@ -182,6 +182,18 @@ TEST(Compare, NotANumberInBothIsNoDifference) {
   EXPECT_EQ(c.odd.nan_a, 64u);
 }
 
+TEST(Compare, ChannelsBesideAnInfiniteOneAreCompared) {
+  const Picture a = changed(sky(), [](float* p, int, int) {
+    if (p[0] > 1000) p[0] = kInf;
+  });
+  const Picture b = changed(a, [](float* p, int, int) {
+    if (p[0] == kInf) p[1] = p[2] = 6.5F;
+  });
+  const Comparison c = compare(a, b, {});
+  EXPECT_FALSE(c.identical);
+  EXPECT_GT(value(c, "relative.max"), 0.99);
+}
+
 TEST(Compare, AllNotANumberHasNoMeasuresOfErrors) {
   const Picture a = picture_of(9, 5, [](int, int) { return glm::vec3(0.5F); });
   const Picture b = picture_of(9, 5, [](int, int) { return glm::vec3(kNan); });
@@ -334,6 +346,29 @@ TEST(Displacement, OfTheDiscIsMeasuredInDegrees) {
   // The centroid of a disc with soft edges on whole pixels: to a fiftieth of a pixel.
   EXPECT_NEAR(value(compare(a, b, view), "sun.shift_px"), 0.5, 0.02);
   EXPECT_NEAR(value(compare(a, b, view), "sun.shift_deg"), separation(from, to).in(deg), 0.03);
+}
+
+TEST(Displacement, OfADiscAtTheSeamOfAMapIsMeasuredAcrossIt) {
+  // The disc on either side of the edge: the map is turned by half its width and two columns.
+  const auto turned = [](int columns) {
+    const Picture p = sky(256, 128, 128.5, 40.5);
+    return picture_of(256, 128, [&](int x, int y) {
+      const float* v = p.pixel((x + 128 + columns) % 256, y);
+      return glm::vec3(v[0], v[1], v[2]);
+    });
+  };
+  const Picture a = turned(1), b = turned(-1);
+  EXPECT_NEAR(value(compare(a, b, map_view(a, 255.5, 40.5)), "sun.shift_px"), 2, 0.02);
+}
+
+TEST(Displacement, AGlowIsNoDisc) {
+  const auto glow = [](double x0) {
+    return picture_of(64, 32, [&](int x, int y) {
+      return glm::vec3(float(0.1 + 0.3 / (1 + (std::pow(x - x0, 2) + std::pow(y - 20, 2)) / 9)));
+    });
+  };
+  const Picture a = glow(30), b = glow(33);
+  EXPECT_TRUE(std::isnan(value(compare(a, b, map_view(a, 30.5, 20.5)), "sun.shift_px")));
 }
 
 TEST(Displacement, ALostDiscLosesAllItsLight) {
