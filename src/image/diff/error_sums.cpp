@@ -20,9 +20,10 @@ constexpr int kParts = 64;
 
 /// Everything about one pixel pair that the sums need.
 struct PixelError {
-  std::array<float, 3> colour{};  // signed
-  float size = 0;                 // largest of all channels, rounding taken off; +Inf: no number
-  int channel = 0;                // of the largest
+  std::array<float, 3> colour{};    // signed
+  std::array<float, 3> rounding{};  // of RGBE, in the same unit
+  float size = 0;                   // largest of all channels, rounding taken off; +Inf: no number
+  int channel = 0;                  // of the largest
 };
 
 float last_place(float strongest) {
@@ -107,6 +108,7 @@ class RowPass {
                                 : std::max({std::fabs(a), std::fabs(b),
                                             float(kWeakChannelShare) * strongest, scale_.floor});
     e.colour[size_t(c)] = 2 * (half / reference);
+    if (scale_.rgbe_step > 0) e.rounding[size_t(c)] = rounding / reference;
     const float beyond = std::max(
         0.0F, 2 * ((std::fabs(half) - 0.5F * (rounding + scale_.half_step * larger)) / reference));
     if (beyond > e.size) e.size = beyond, e.channel = c;
@@ -184,7 +186,11 @@ void add_pixel(PixelSums& sums, const PixelError& e, const float* a, const float
   sums.count += 1;
   sums.squares += double(e.size) * double(e.size);
   if (double(e.size) > sums.worst) sums.worst = e.size, sums.worst_at = at;
-  for (int c = 0; c < colours; ++c) sums.signed_sum[size_t(c)] += double(e.colour[size_t(c)]);
+  for (int c = 0; c < colours; ++c) {
+    const double rounding = e.rounding[size_t(c)];
+    sums.signed_sum[size_t(c)] += double(e.colour[size_t(c)]);
+    sums.rounding_squares[size_t(c)] += rounding * rounding;
+  }
   for (int c = 0; c < colours; ++c) {
     if (!std::isfinite(a[c])) return;  // the same in both
   }
@@ -358,6 +364,7 @@ void PixelSums::add(const PixelSums& other) {
   count += other.count, squares += other.squares, light_weight += other.light_weight;
   for (size_t c = 0; c < 3; ++c) {
     signed_sum[c] += other.signed_sum[c];
+    rounding_squares[c] += other.rounding_squares[c];
     colour_a[c] += other.colour_a[c], colour_b[c] += other.colour_b[c];
   }
   if (other.worst > worst) worst = other.worst, worst_at = other.worst_at;

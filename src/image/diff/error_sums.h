@@ -19,6 +19,7 @@ struct PixelSums {
   double count = 0;
   double squares = 0;                            // of the pixels' errors
   std::array<double, 3> signed_sum{};            // of the colour channels' errors, signs kept
+  std::array<double, 3> rounding_squares{};      // of what rounding in RGBE files is in those
   std::array<double, 3> colour_a{}, colour_b{};  // of the colours, by solid angle where it is known
   double light_weight = 0;                       // of those sums
   double worst = -1;

@@ -41,11 +41,16 @@ struct Bias {
   int channel = 0;
 };
 
+/// What rounding alone may make of the mean is taken off: that of n samples, each evenly spread
+/// over +-r, has a standard deviation of r / sqrt(3 n). Three of them, but never more than r.
 Bias bias_of(const PixelSums& sums, int colours) {
   Bias worst;
-  for (int c = 0; c < colours; ++c)
-    if (const double mean = std::fabs(sums.signed_sum[size_t(c)] / sums.count); mean > worst.value)
-      worst = {mean, c};
+  for (int c = 0; c < colours; ++c) {
+    const double rounding = std::sqrt(sums.rounding_squares[size_t(c)] / sums.count) *
+                            std::min(1.0, std::sqrt(3 / sums.count));
+    const double mean = std::fabs(sums.signed_sum[size_t(c)] / sums.count) - rounding;
+    if (mean > worst.value) worst = {mean, c};
+  }
   return worst;
 }
 

@@ -286,6 +286,18 @@ TEST(Compare, NeighbouringHalvesAreRoundingAndFloatsAreNot) {
   EXPECT_GT(value(halves, "relative.bias"), 6e-4) << "all of them to one side is no rounding";
 }
 
+TEST(Compare, RoundingToRgbeIsNoBiasOfOnePixelButIsOneOfMany) {
+  const float step = std::ldexp(1.0F, -8);  // last place of 0.5 .. 1
+  const auto bias = [&](int size) {
+    Picture a = picture_of(size, size, [](int, int) { return glm::vec3(0.75F, 0.5F, 0.06F); });
+    Picture b = changed(a, [&](float* p, int, int) { p[2] += 0.49F * step; });
+    b.storage = {SampleStorage::Kind::rgbe, 8, false};
+    return value(compare(a, b, {}), "relative.bias");
+  };
+  EXPECT_EQ(bias(1), 0);
+  EXPECT_GT(bias(64), 0.9 * 0.49 * step / 0.075) << "all of them to one side is no rounding";
+}
+
 TEST(Compare, ChannelsThatAreNoColoursCountByThemselves) {
   Picture a = picture_of(8, 8, [](int, int) { return glm::vec3(1); });
   a.channels = {"R", "G", "B", "Z"};
