@@ -162,9 +162,9 @@ TEST(PairFiles, HostileManifestsAreErrorsWithAReason) {
 
 TEST(PairFiles, ManifestsTellSequencesAndFacts) {
   using namespace pipeline::testing;
-  const auto plan = plan_of_text(small_scene(
-      "{image: \"exr/{time}.exr\"}, {image: \"hdr/####.hdr\"}, {image: \"f.####.png\", "
-      "display: sRGB}"));
+  const auto plan = plan_of_text(
+      small_scene("{image: \"exr/{time}.exr\"}, {image: \"hdr/####.hdr\"}, {image: \"f.####.png\", "
+                  "display: sRGB}"));
   const TemporaryFolder folder;
   ASSERT_TRUE(pipeline::run_job(plan, options_for(plan, folder.path())).ok());
   const auto root = folder.path().string();
