@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "diff/judge.h"
+#include "image/camera/camera_check.h"
+#include "image/camera/camera_words.h"
 
 namespace skylapse::diff {
 namespace {
@@ -56,17 +58,35 @@ void use_one_scale(image::Picture& a, image::Picture& b) {
   a.display_referred = b.display_referred = a.display_referred || b.display_referred;
 }
 
+/// The camera of the command line in the size of the picture; of cubes the layout that has its
+/// proportions.
+image::Camera camera_of_size(image::Camera camera, int width, int height) {
+  using enum image::CubeLayout;
+  camera.width = width, camera.height = height;
+  if (camera.projection == image::Projection::cube)
+    for (const auto layout : {horizontal_strip, cross, vertical_cross, vertical_strip}) {
+      camera.cube_layout = layout;
+      if (!image::camera_problem(camera)) break;
+    }
+  return camera;
+}
+
 /// What is known of the sky from A, else from B, else from the command line.
-image::SkyView view_of(const ReadPicture& a, const ReadPicture& b, const PairOptions& options) {
+image::SkyView view_of(const ReadPicture& a, const ReadPicture& b, const PairOptions& options,
+                       PairResult& pair) {
   image::SkyView view = a.facts.view;
   const image::Picture& picture = a.picture;
   if (!view.camera) view.camera = b.facts.view.camera;
-  if (!view.camera && options.camera) {
-    view.camera = options.camera;
-    view.camera->width = picture.width, view.camera->height = picture.height;
-  }
   if (view.camera && (view.camera->width != picture.width || view.camera->height != picture.height))
     view.camera.reset();
+  if (!view.camera && options.camera) {
+    view.camera = camera_of_size(*options.camera, picture.width, picture.height);
+    if (const auto problem = image::camera_problem(*view.camera)) {
+      add(pair, "metadata.projection",
+          fmt::format("no {} map: {}", name_of(view.camera->projection), *problem));
+      view.camera.reset();
+    }
+  }
   if (!view.sun && b.facts.view.sun) {
     view.sun = b.facts.view.sun;
     view.sun_radius = b.facts.view.sun_radius;
@@ -186,7 +206,7 @@ PairResult compare_pair(const FilePair& files, const Limits& limits, const PairO
     pair.findings.push_back(std::move(finding));
   if (measurable) {
     use_one_scale(a->picture, b->picture);
-    pair.view = view_of(*a, *b, options);
+    pair.view = view_of(*a, *b, options, pair);
     measure(*a, *b, limits, options, pair, trace);
   }
   conclude(limits, pair);

@@ -74,6 +74,11 @@ TEST_F(Diff, AnotherMomentIsDifferentAndSaysWhy) {
   EXPECT_TRUE(holds(outcome.out, "metadata.")) << outcome.out;
 }
 
+TEST_F(Diff, TheCameraOfAFileWinsOverTheCommandLine) {
+  const auto outcome = diff({frame(1), frame(1), "--projection", "cube"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+}
+
 TEST_F(Diff, FoldersAndManifestsAreComparedFrameByFrame) {
   for (const char* end : {"", "/manifest.json"}) {
     const std::string a = (folder_ / "a").string() + end, late = (folder_ / "late").string() + end;

@@ -17,6 +17,8 @@ namespace {
 /// A fitted move counts as one if it explains most of the difference, and changes the light by more
 /// than rounding to halves may.
 constexpr double kExplained = 0.5, kEffect = 1e-4;
+/// Six stops: beyond, light has come or gone.
+constexpr double kMostOfTheLight = 1 - 1.0 / 64;
 /// Farther than a straight line for the light between pixels can tell.
 constexpr double kFarthest = 3;
 
@@ -79,11 +81,11 @@ void add_exposure(const ErrorSums& sums, int colours, MeasureList& list) {
     mean += of_channel / colours, least = std::min(least, std::fabs(of_channel));
   }
   const double square = sums.all.squares / sums.all.count;
-  if (std::fabs(mean) < kEffect || least < 0.5 * std::fabs(mean) || mean * mean < 0.5 * square)
+  if (std::fabs(mean) < kEffect || std::fabs(mean) > kMostOfTheLight ||
+      least < 0.5 * std::fabs(mean) || mean * mean < 0.5 * square)
     return;
   // An error is a share of the larger of the two.
-  list.plain("exposure.shift_ev", mean > 0 ? -std::log2(1 - std::min(mean, 0.999))
-                                           : std::log2(1 + std::max(mean, -0.999)));
+  list.plain("exposure.shift_ev", mean > 0 ? -std::log2(1 - mean) : std::log2(1 + mean));
 }
 
 void add_absolute_measures(const ErrorSums& sums, double unit, MeasureList& list) {
