@@ -90,7 +90,7 @@ Limits cross_renderer() {
 
 /// Between what models differ by (irradiance 0.83, harmonics 0.72, the disc's place 0.011 deg and
 /// flux 0.86, chromaticity 0.11) and what is broken (turned by a column 0.7 deg, the disc gone
-/// 0.99, black 1). FLIP sees as much between models, 0.93, as in any broken picture, so it has no
+/// 1, black 1). FLIP sees as much between models, 0.93, as in any broken picture, so it has no
 /// limit. benchmarks/diff/models.py prints the table.
 Limits cross_model() {
   Limits limits;
