@@ -67,19 +67,6 @@ Status write_reports(const DiffArguments& a, const diff::DiffResult& result) {
   return all;
 }
 
-ExitCode exit_code(const diff::DiffResult& result) {
-  if (result.unreadable) return ExitCode::missing_input;
-  switch (result.verdict) {
-    case diff::Verdict::same:
-      return ExitCode::done;
-    case diff::Verdict::warning:
-      return ExitCode::differs_within_warning;
-    case diff::Verdict::different:
-      break;
-  }
-  return ExitCode::differs;
-}
-
 ExitCode accept(const DiffArguments& a, const diff::DiffOptions& options,
                 const ConsoleOptions& console) {
   if (const Status accepted = diff::accept_goldens(options, a.note); !accepted)
@@ -114,12 +101,13 @@ ExitCode run_diff_command(const DiffArguments& a, const ConsoleOptions& console)
     print(result_text(*result, a.all));
   for (const auto& pair : result->pairs)
     if (pair.error) report(*pair.error);
+  const auto verdict = ExitCode(diff::exit_code_of(*result));
   if (const Status written = write_reports(a, *result); !written) {
     // That pictures differ is the more important of the two.
     const ExitCode code = report(written.error());
-    return exit_code(*result) == ExitCode::done ? code : exit_code(*result);
+    return verdict == ExitCode::done ? code : verdict;
   }
-  if (!a.update) return exit_code(*result);
+  if (!a.update) return verdict;
   return accept(a, *options, console);
 }
 

@@ -100,8 +100,8 @@ image::CompareOptions compare_options(const ReadPicture& a, const Limits& limits
   image::CompareOptions out;
   out.forgive_rounding = limits.profile != Profile::exact;
   out.psnr_peak = options.psnr_peak;
-  if (const auto space = color::rgb_space_from_name(a.facts.color_space))
-    out.rgb_to_xyz = color::rgb_to_xyz(*space);
+  const auto space = color::rgb_space_from_name(a.facts.color_space);
+  out.rgb_to_xyz = color::rgb_to_xyz(space ? *space : color::RgbSpace::rec709);
   return out;
 }
 
@@ -163,6 +163,9 @@ void measure(const ReadPicture& a, const ReadPicture& b, const Limits& limits,
     flip = image::flip(a.picture, b.picture, options.flip_options);
     pair.flip_ms = watch.ms();
   }
+  // Errors are shares of light, and some are too small to be a number.
+  if (limits.profile == Profile::exact && !comparison.identical)
+    add(pair, "identical", "the samples are not the same");
   judge_odd_samples(comparison.odd, pair);
   if (options.simple) {
     // Only what was asked for decides; the other values are told without limits.

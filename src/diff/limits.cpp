@@ -223,6 +223,7 @@ const MeasureKind* kind_of(const std::string& measure) {
 
 const std::vector<std::string>& check_names() {
   static const std::vector<std::string> names{"size",
+                                              "identical",
                                               "channels",
                                               "parts",
                                               "nan",

@@ -74,6 +74,20 @@ TEST_F(Diff, AnotherMomentIsDifferentAndSaysWhy) {
   EXPECT_TRUE(holds(outcome.out, "metadata.")) << outcome.out;
 }
 
+TEST_F(Diff, ExactSeesTheSmallestStepOfASample) {
+  // A change of one sample that is no number as a share of the pixel's light.
+  const auto a = scratch_ / "a.pfm", b = scratch_ / "b.pfm";
+  const auto write = [](const fs::path& file, float faint) {
+    std::ofstream out(file, std::ios::binary);
+    out << "PF\n1 1\n-1.0\n";
+    for (const float v : {1e30F, 1.0F, faint}) out.write(reinterpret_cast<const char*>(&v), 4);
+  };
+  write(a, 1e-30F), write(b, 2e-30F);
+  EXPECT_EQ(diff({a, b, "--profile", "exact"}).exit_code, 2);
+  EXPECT_EQ(diff({a, a, "--profile", "exact"}).exit_code, 0);
+  EXPECT_EQ(diff({a, b}).exit_code, 0);
+}
+
 TEST_F(Diff, TheCameraOfAFileWinsOverTheCommandLine) {
   const auto outcome = diff({frame(1), frame(1), "--projection", "cube"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out;

@@ -280,12 +280,6 @@ void add_regions(const ErrorSums& sums, int colours, Comparison& result) {
 
 }  // namespace
 
-glm::dmat3 rec709_to_xyz() {
-  // ITU-R BT.709-6 primaries with D65, as the standard's own matrix rounds them; columns.
-  return {0.4124564, 0.2126729, 0.0193339, 0.3575761, 0.7151522,
-          0.1191920, 0.1804375, 0.0721750, 0.9503041};
-}
-
 Comparison compare(const Picture& a, const Picture& b, const SkyView& view,
                    const CompareOptions& options) {
   assert(a.width == b.width && a.height == b.height && a.channels == b.channels);
@@ -317,7 +311,8 @@ Comparison compare(const Picture& a, const Picture& b, const SkyView& view,
     add_region_measures(sums, colours, list);
     add_light_measures(sums, view, colours, double(scale.floor), list);
   }
-  if (colours == 3 && !a.display_referred) add_chromaticity(sums, options.rgb_to_xyz, list);
+  if (colours == 3 && !a.display_referred && options.rgb_to_xyz)
+    add_chromaticity(sums, *options.rgb_to_xyz, list);
   if (result.identical) return result;
   if (!a.display_referred && sums.all.count > 0) add_exposure(sums, colours, list);
   if (peak > 0 && sums.samples > 0) {

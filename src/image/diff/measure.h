@@ -22,8 +22,9 @@ struct PixelPlace {
   int channel = -1;  // number in Picture::channels, -1: all of them
 };
 
-/// One number. Names are those of docs/diff.md, "relative.rms", "region.zenith.bias"; values are
-/// fractions (0.01 is 1 %), code values under "display.", degrees or pixels where the name says so.
+/// One number. Names are those of docs/diff.md, "relative.rms", "relative.region.zenith.bias";
+/// values are fractions (0.01 is 1 %), code values under "display.", degrees or pixels where the
+/// name says so.
 struct Measure {
   std::string name;
   double value = 0;
@@ -42,11 +43,8 @@ struct OddSamples {
 /// Sizes of the small picture that stands for a frame in measures over time.
 inline constexpr int kThumbnailColumns = 32, kThumbnailRows = 16;
 
-/// Linear Rec. 709 to CIE XYZ.
-glm::dmat3 rec709_to_xyz();
-
 struct CompareOptions {
-  glm::dmat3 rgb_to_xyz = rec709_to_xyz();  // of scene-linear pictures
+  std::optional<glm::dmat3> rgb_to_xyz;  // of scene-linear pictures; nothing: no chromaticity
   /// Rounding in the files is taken off errors (error_scale.h); not if every difference counts.
   bool forgive_rounding = true;
   std::optional<double> psnr_peak;  // nothing: 255 code values; linear: the brightest 0.1 % of a
@@ -59,7 +57,7 @@ struct Comparison {
   std::vector<float> error;  // per pixel the largest |e| of its channels; NaN or Inf in one: +Inf
   uint64_t hash_a = 0, hash_b = 0;  // of the samples
   /// Mean light of the cells of a grid of kThumbnailRows by kThumbnailColumns (of colour channels
-  /// together: their mean), row by row; smaller pictures fill the first cells.
+  /// together: their mean), row by row; 0 where a small picture has no pixel for a cell.
   std::vector<float> thumbnail_a, thumbnail_b;
   /// Regions of the sky that the picture shows, with their mean light in both.
   struct RegionLight {

@@ -78,7 +78,8 @@ TEST(Compare, AGainIsTheErrorOfEveryMeasure) {
   const Picture b = changed(a, [&](float* p, int, int) {
     for (int c = 0; c < 3; ++c) p[c] = float(p[c] * (1 + gain));
   });
-  const Comparison c = compare(a, b, map_view(a, 90.5, 20.5));
+  const CompareOptions options{.rgb_to_xyz = glm::dmat3(1), .psnr_peak = {}};
+  const Comparison c = compare(a, b, map_view(a, 90.5, 20.5), options);
   // (b - a) / b, to the rounding of float; percentiles to the width of a bin.
   const double e = gain / (1 + gain);
   for (const char* name :
