@@ -6,7 +6,6 @@
 TEST_DIFF writes pages of made-up pictures (or --pages names a folder where it has). Pixels are read back
 from the canvas. Exit status 77: there is no Chromium here.
 """
-import argparse
 import os
 import pathlib
 import subprocess
@@ -15,7 +14,7 @@ import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
-from browser import SKIPPED, Browser, Page, check, check_events, find_chromium  # noqa: E402
+from browser import Browser, Page, check, check_events, start  # noqa: E402
 
 KEYS = {" ": "Space"}
 
@@ -331,15 +330,7 @@ def try_many(page, screenshots, name):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("test_diff")
-    parser.add_argument("--pages")
-    parser.add_argument("--screenshots")
-    arguments = parser.parse_args()
-    program = find_chromium()
-    if not program:
-        print("skipped: there is no chromium here (Debian package chromium)")
-        return SKIPPED
+    arguments = start("test_diff", "pages")
     with tempfile.TemporaryDirectory() as folder:
         pages = arguments.pages
         if not pages:
@@ -350,7 +341,7 @@ def main():
                 ("desktop", "index.html", 1440, 1000, False, try_page), ("dark", "index.html", 1280, 900, True, try_page),
                 ("phone", "index.html", 390, 844, False, try_page), ("empty", "empty.html", 1280, 900, False, try_empty),
                 ("many", "many.html", 1440, 1000, False, try_many)):
-            browser = Browser(program, os.path.join(folder, "profile_" + name))
+            browser = Browser(arguments.chromium, os.path.join(folder, "profile_" + name))
             try:
                 page = Page(browser, (pathlib.Path(pages).resolve() / file).as_uri(), width, height, dark)
                 attempt(page, arguments.screenshots, name)

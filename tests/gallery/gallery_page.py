@@ -5,7 +5,6 @@
 
 --page opens a gallery that is there instead, and only looks. Exit status 77: there is no Chromium here.
 """
-import argparse
 import json
 import os
 import pathlib
@@ -15,7 +14,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
-from browser import SKIPPED, Browser, Page, check, check_events, find_chromium  # noqa: E402
+from browser import Browser, Page, check, check_events, start  # noqa: E402
 
 # Names with what a link must not trip over; two sites, two airs, three elevations of the sun.
 LIBRARY = """
@@ -223,15 +222,7 @@ def try_many(program, folder, page_file):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("skylapse")
-    parser.add_argument("--page")
-    parser.add_argument("--screenshots")
-    arguments = parser.parse_args()
-    program = find_chromium()
-    if not program:
-        print("skipped: there is no chromium here (Debian package chromium)")
-        return SKIPPED
+    arguments = start("skylapse", "page")
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary) / "a library #1"
         page_file = pathlib.Path(arguments.page) if arguments.page else folder / "pages" / "index.html"
@@ -240,7 +231,7 @@ def main():
             check(not re.search(r"https?://(?!www\.w3\.org)", page_file.read_text()), "the page names a host")
         for name, width, height, dark in (("desktop", 1280, 900, False), ("phone", 390, 844, False),
                                           ("dark", 1280, 900, True)):
-            browser = Browser(program, os.path.join(temporary, name))
+            browser = Browser(arguments.chromium, os.path.join(temporary, name))
             try:
                 page = Page(browser, page_file.resolve().as_uri(), width, height, dark)
                 if arguments.screenshots:
@@ -256,8 +247,8 @@ def main():
             finally:
                 browser.close()
         if not arguments.page:
-            try_many(program, temporary, page_file)
-            try_cameras(program, arguments.skylapse, temporary, arguments.screenshots)
+            try_many(arguments.chromium, temporary, page_file)
+            try_cameras(arguments.chromium, arguments.skylapse, temporary, arguments.screenshots)
     print("the gallery works: desktop, phone, dark, thousands of skies")
     return 0
 

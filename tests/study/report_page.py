@@ -6,7 +6,6 @@
 TEST_STUDY writes a report of made-up measurements (or --report names a real one). Exit status 77:
 there is no Chromium here.
 """
-import argparse
 import os
 import pathlib
 import subprocess
@@ -14,7 +13,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
-from browser import SKIPPED, Browser, Page, check, check_events, find_chromium  # noqa: E402
+from browser import Browser, Page, check, check_events, start  # noqa: E402
 
 
 def first_column(page, index):
@@ -62,15 +61,7 @@ def try_out(page):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("test_study")
-    parser.add_argument("--report")
-    parser.add_argument("--screenshots")
-    arguments = parser.parse_args()
-    program = find_chromium()
-    if not program:
-        print("skipped: there is no chromium here (Debian package chromium)")
-        return SKIPPED
+    arguments = start("test_study", "report")
     with tempfile.TemporaryDirectory() as folder:
         report = arguments.report
         if not report:
@@ -80,7 +71,7 @@ def main():
         url = pathlib.Path(report).resolve().as_uri()
         for name, width, height, dark in (("desktop", 1280, 900, False), ("phone", 390, 844, False),
                                           ("dark", 1280, 900, True)):
-            browser = Browser(program, os.path.join(folder, name))
+            browser = Browser(arguments.chromium, os.path.join(folder, name))
             try:
                 page = Page(browser, url, width, height, dark)
                 if arguments.screenshots:

@@ -1,17 +1,34 @@
 """Headless Chromium, driven through its DevTools pipe (file descriptors 3 and 4), so that nothing but
 Python is needed. There is no network: every host is unknown to the browser."""
+import argparse
 import base64
 import json
 import os
 import pathlib
 import shutil
 import subprocess
+import sys
 
 SKIPPED = 77
 
 
 def find_chromium():
     return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+def start(program, page):
+    """Arguments of a page's test: `program` makes pages, --`page` names one that is there. Ends with
+    SKIPPED where there is no Chromium; else adds `chromium`."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument(program)
+    parser.add_argument(f"--{page}")
+    parser.add_argument("--screenshots")
+    arguments = parser.parse_args()
+    arguments.chromium = find_chromium()
+    if not arguments.chromium:
+        print("skipped: there is no chromium here (Debian package chromium)")
+        sys.exit(SKIPPED)
+    return arguments
 
 
 class Browser:
